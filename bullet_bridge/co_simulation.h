@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bullet_bridge/hand_over.h"
+#include "bullet_bridge/precision.h"
+#include "bullet_bridge/switch_policy.h"
+#include "core/model/errors.h"
+#include "core/model/physical_model.h"
+
+class btDiscreteDynamicsWorld;
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+
+enum class Representation {
+  kSwitching,       // rigid until it matters
+  kAlwaysFlexible,  // the accuracy reference
+  kAlwaysRigid,     // never breaks
+};
+
+struct CoSimulationSettings {
+  Representation representation = Representation::kSwitching;
+  SwitchSettings switching;
+  double step_scale = 1.0;     // (0, 1]: factor on the automatically chosen substep
+  int most_substeps = 100000;  // a tick that would need more is refused by name
+};
+
+// One change of representation with what decided it.
+struct SwitchRecord {
+  double time = 0.0;  // s
+  std::size_t object = 0;
+  std::size_t piece = 0;  // counts up over the whole simulation
+  std::string cause;      // "touch", "sustained load", "missed touch", "calm", "start"
+  std::vector<std::pair<std::string, double>> numbers;
+  HandOver books;
+};
+
+struct BreakRecord {
+  double time = 0.0;  // s
+  std::size_t object = 0;
+  Vec3 where;  // m
+};
+
+// One connected piece as it is now.
+struct PieceView {
+  std::size_t object = 0;
+  bool flexible = false;
+  RigidMotion motion;
+  std::vector<std::int32_t> points;  // of the object, ascending
+};
+
+struct Counters {
+  std::uint64_t spring_updates = 0;
+  std::size_t broken_edges = 0;
+  std::size_t to_flexible = 0;
+  std::size_t to_rigid = 0;
+  std::size_t missed = 0;    // touches that no prediction foresaw and whose load was over the limit
+  std::size_t needless = 0;  // turned flexible and back without having been touched
+  double flexible_mass_seconds = 0.0;  // kg s
+  double mass_seconds = 0.0;           // kg s, of all pieces
+  double stored_J = 0.0;               // elastic energy in rigid pieces now
+};
+
+// Flexible, breakable objects in a game's own Bullet world.
+//
+// Attach it to any btDiscreteDynamicsWorld, add models, and step the world as before. An object is a
+// btRigidBody while nothing stresses it, a spring lattice while something does, and several rigid
+// bodies after it broke.
+//
+// Contract. Limber owns the points of its objects and the proxies it adds; Bullet owns every other
+// body. Within a tick: (1) before the solver runs, proxies that are about to be loaded become
+// lattices, and all lattices are integrated together with the bodies they may touch; momentum is
+// exchanged in equal and opposite amounts; (2) after the solver, contact impulses on proxies are
+// read; (3) after bodies moved, poses are corrected, pieces are split, calmed pieces become bodies.
+// Momentum, angular momentum and centre of mass of a piece are the same before and after every
+// change of representation.
+class CoSimulation {
+ public:
+  // The world must outlive this; it is left as it was found when this is destroyed (but for the
+  // proxies, which go).
+  explicit CoSimulation(btDiscreteDynamicsWorld& world, const CoSimulationSettings& settings = {});
+  ~CoSimulation();
+  CoSimulation(const CoSimulation&) = delete;
+  CoSimulation& operator=(const CoSimulation&) = delete;
+
+  // Adds an object where its points are, with their velocities. Not during a step. Returns its
+  // index. Throws InputError naming what is wrong with the model.
+  std::size_t add(PhysicalModel model);
+
+  // The object as it is now: positions, velocities, breaks. Can be edited, glued and added again.
+  PhysicalModel model(std::size_t object) const;
+
+  // Why the simulation of the lattices stopped, if it did; ask after every stepSimulation(). (Bullet
+  // cannot be left by an exception in the middle of a step.)
+  const std::optional<Diagnostic>& failure() const;
+
+  std::size_t object_count() const;
+  std::vector<PieceView> pieces() const;
+  double debris_mass(std::size_t object) const;  // kg, points without edges
+  // Per point of the object: is it part of a lattice now?
+  std::vector<bool> flexible_points(std::size_t object) const;
+  // Best rigid fit of the whole object against its shape when it was added, and its centre.
+  std::pair<Mat3, Vec3> placement(std::size_t object) const;
+
+  const Counters& counters() const;
+  const std::vector<SwitchRecord>& switches() const;
+  const std::vector<BreakRecord>& breaks() const;
+
+  // Hash of every bit of state, Bullet's bodies included.
+  std::uint64_t state_hash() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

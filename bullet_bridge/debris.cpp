@@ -1,0 +1,83 @@
+#include "bullet_bridge/debris.h"
+
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <algorithm>
+
+#include "bullet_bridge/conversions.h"
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+namespace {
+
+// A particle that hits an immovable body slower than this rests there, m/s: one tick of gravity at
+// 1/60 s makes 0.16.
+constexpr double kRestSpeed = 0.2;
+// It is put this far off the surface, m, so that its next ray starts outside.
+constexpr double kLift = 1e-4;
+
+struct FirstHit : btCollisionWorld::ClosestRayResultCallback {
+  FirstHit(const btVector3& from, const btVector3& to,
+           const std::unordered_set<const btCollisionObject*>& ignored_bodies)
+      : ClosestRayResultCallback(from, to), ignored(ignored_bodies) {}
+
+  bool needsCollision(btBroadphaseProxy* proxy) const override {
+    const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
+    return object->hasContactResponse() && !ignored.contains(object) &&
+           ClosestRayResultCallback::needsCollision(proxy);
+  }
+
+  const std::unordered_set<const btCollisionObject*>& ignored;
+};
+
+Vec3 velocity_after_hit(const Vec3& relative, const Vec3& normal, double friction) {
+  const double approach = -relative.dot(normal);
+  const Vec3 slip = relative + approach * normal;
+  const double speed = slip.norm();
+  if (speed == 0.0) return Vec3::Zero();
+  return slip * std::max(0.0, 1.0 - friction * approach / speed);
+}
+
+}  // namespace
+
+void Debris::step(btDiscreteDynamicsWorld& world, Lattice& lattice,
+                  const std::unordered_set<const btCollisionObject*>& ignored, double dt) {
+  const Vec3 gravity = from_bullet(world.getGravity());
+  for (Particle& particle : points_) {
+    if (particle.resting) continue;
+    PointMotion& point = lattice.motion[particle.point];
+    const Vec3 velocity = point.velocity + gravity * dt;
+    const Vec3 target = point.position + 0.5 * dt * (point.velocity + velocity);
+    FirstHit hit(to_bullet(point.position), to_bullet(target), ignored);
+    world.rayTest(hit.m_rayFromWorld, hit.m_rayToWorld, hit);
+    if (!hit.hasHit()) {
+      point = {target, velocity};
+      continue;
+    }
+    const Vec3 normal = from_bullet(hit.m_hitNormalWorld).normalized();
+    auto* body = const_cast<btRigidBody*>(btRigidBody::upcast(hit.m_collisionObject));
+    const bool movable = body && !body->isStaticOrKinematicObject();
+    Vec3 ground = Vec3::Zero();
+    Vec3 arm = Vec3::Zero();
+    if (body) {
+      arm = from_bullet(hit.m_hitPointWorld - body->getCenterOfMassPosition());
+      ground = from_bullet(body->getVelocityInLocalPoint(to_bullet(arm)));
+    }
+    const double friction = hit.m_collisionObject->getFriction() *
+                            lattice.objects[lattice.point_object[particle.point]]
+                                .authored.object.friction;
+    const Vec3 after = ground + velocity_after_hit(velocity - ground, normal, friction);
+    if (movable) {
+      body->activate();
+      body->applyImpulse(to_bullet(lattice.mass[particle.point] * (velocity - after)),
+                         to_bullet(arm));
+    }
+    particle.resting = !movable && after.norm() < kRestSpeed;
+    point = {from_bullet(hit.m_hitPointWorld) + kLift * normal,
+             particle.resting ? Vec3(Vec3::Zero()) : after};
+  }
+}
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <unordered_set>
+#include <vector>
+
+#include "bullet_bridge/precision.h"
+#include "core/dynamics/lattice.h"
+
+class btDiscreteDynamicsWorld;
+class btCollisionObject;
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+
+// Points that lost all their edges: ballistic particles at the tick rate, the same in every
+// representation. They fall on the world's bodies (not on Limber's own proxies, whose hulls they are
+// born in) by a ray along their path; a hit is inelastic with friction and gives a movable body the
+// momentum that the particle loses.
+class Debris {
+ public:
+  void add(std::int32_t point) { points_.push_back({point, false}); }
+  std::size_t size() const { return points_.size(); }
+
+  // One tick for all: x += (v + v') dt / 2, v' = v + g dt, or to the first hit.
+  void step(btDiscreteDynamicsWorld& world, Lattice& lattice,
+            const std::unordered_set<const btCollisionObject*>& ignored, double dt);
+
+ private:
+  struct Particle {
+    std::int32_t point;
+    bool resting;
+  };
+  std::vector<Particle> points_;
+};
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

@@ -1,0 +1,80 @@
+#include "bullet_bridge/hand_over.h"
+
+#include <cmath>
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+namespace {
+
+// What the defects are measured against: sums of magnitudes, which do not vanish for a body that
+// vibrates at rest.
+struct MotionScale {
+  double momentum = 0.0;          // sum m |v|
+  double angular_momentum = 0.0;  // sum m |r| |v|
+};
+
+MotionScale scale_of(const Lattice& lattice, std::span<const std::int32_t> points,
+                     const Vec3& centre) {
+  MotionScale scale;
+  for (std::int32_t p : points) {
+    const PointMotion& point = lattice.motion[p];
+    const double momentum = lattice.mass[p] * point.velocity.norm();
+    scale.momentum += momentum;
+    scale.angular_momentum += momentum * (point.position - centre).norm();
+  }
+  return scale;
+}
+
+double relative(double defect, double scale) { return scale > 0.0 ? defect / scale : defect; }
+
+void note_defects(HandOver& books, const RigidMotion& lattice_side, const RigidMotion& body_side,
+                  const MotionScale& scale) {
+  books.momentum_defect_rel =
+      relative((lattice_side.momentum() - body_side.momentum()).norm(), scale.momentum);
+  books.angular_momentum_defect_rel =
+      relative((lattice_side.angular_momentum - body_side.angular_momentum).norm(),
+               scale.angular_momentum);
+}
+
+void close_books(HandOver& books) {
+  const double missing = books.kinetic_before_J - books.kinetic_after_J - books.discarded_J;
+  books.unaccounted_rel = relative(std::abs(missing), books.kinetic_before_J);
+}
+
+}  // namespace
+
+HandOver freeze(btDiscreteDynamicsWorld& world, const Lattice& lattice,
+                std::span<const std::int32_t> points, std::unique_ptr<RigidProxy>& proxy) {
+  HandOver books;
+  const RigidMotion before = rigid_motion(lattice.motion, lattice.mass, points);
+  books.kinetic_before_J = kinetic_energy(lattice.motion, lattice.mass, points);
+  books.elastic_J = elastic_energy(lattice, points);
+  for (std::int32_t p : points) {
+    const Vec3 vibration =
+        lattice.motion[p].velocity - before.velocity_at(lattice.motion[p].position);
+    books.discarded_J += 0.5 * lattice.mass[p] * vibration.squaredNorm();
+  }
+  proxy = std::make_unique<RigidProxy>(world, lattice, points);
+  const RigidMotion after = proxy->motion();
+  books.kinetic_after_J = after.kinetic_energy();
+  note_defects(books, before, after, scale_of(lattice, points, before.centre));
+  close_books(books);
+  return books;
+}
+
+HandOver thaw(Lattice& lattice, std::span<const std::int32_t> points, const RigidProxy& proxy) {
+  HandOver books;
+  books.to_flexible = true;
+  const RigidMotion before = proxy.motion();
+  books.kinetic_before_J = before.kinetic_energy();
+  proxy.write_points(lattice, points);
+  const RigidMotion after = rigid_motion(lattice.motion, lattice.mass, points);
+  books.kinetic_after_J = kinetic_energy(lattice.motion, lattice.mass, points);
+  books.elastic_J = elastic_energy(lattice, points);
+  note_defects(books, after, before, scale_of(lattice, points, after.centre));
+  close_books(books);
+  return books;
+}
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bullet_bridge/precision.h"
+#include "core/dynamics/lattice.h"
+
+class btDiscreteDynamicsWorld;
+class btCollisionObject;
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+
+// The bodies whose bounding boxes the points may reach within dt (their boxes already include their
+// own way in this tick), in the order in which the world holds them. Bodies without contact response
+// are left out.
+std::vector<const btCollisionObject*> bodies_within_reach(btDiscreteDynamicsWorld& world,
+                                                          const Lattice& lattice,
+                                                          std::span<const std::int32_t> points,
+                                                          double dt);
+
+// The largest speed at which a point of one piece and a point of the other, near enough to meet
+// within dt, approach; 0 when none can meet. Looks at a sample of at most a few hundred points each.
+double closing_speed(const Lattice& lattice, std::span<const std::int32_t> one,
+                     std::span<const std::int32_t> other, double dt);
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

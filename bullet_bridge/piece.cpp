@@ -1,0 +1,57 @@
+#include "bullet_bridge/piece.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+namespace {
+
+double lattice_factor(const LatticeObject& object) {
+  if (object.cells.size() > 0) return 6.0;
+  return object.faces.size() > 0 ? 3.0 : 1.0;
+}
+
+}  // namespace
+
+PieceStrength strength_of(const Lattice& lattice, std::span<const std::int32_t> points) {
+  PieceStrength strength;
+  strength.weakest_strain = kUnbreakable;
+  double stiffness = 0.0;  // sum k l^2, N m
+  for (std::int32_t p : points) {
+    strength.mass += lattice.mass[p];
+    for (std::int32_t e : lattice.point_edges[p]) {
+      const Spring& s = lattice.springs[e];
+      if (s.a != p || lattice.breaking.edge_broken[e]) continue;
+      stiffness += s.stiffness * s.rest_length * s.rest_length;
+      strength.weakest_strain =
+          std::min(strength.weakest_strain, s.break_threshold / s.rest_length);
+    }
+  }
+  const LatticeObject& object = lattice.objects[lattice.point_object[points[0]]];
+  strength.wave_speed = std::sqrt(stiffness / (lattice_factor(object) * strength.mass));
+  return strength;
+}
+
+double rms_vibration(const Lattice& lattice, std::span<const std::int32_t> points) {
+  const RigidMotion motion = rigid_motion(lattice.motion, lattice.mass, points);
+  double sum = 0.0;
+  for (std::int32_t p : points) {
+    const PointMotion& point = lattice.motion[p];
+    sum += lattice.mass[p] * (point.velocity - motion.velocity_at(point.position)).squaredNorm();
+  }
+  return std::sqrt(sum / motion.mass);
+}
+
+void measure(Piece& piece, const Lattice& lattice) {
+  piece.strength = strength_of(lattice, piece.points);
+  const Vec3 centre = rigid_motion(lattice.motion, lattice.mass, piece.points).centre;
+  double farthest = 0.0;
+  for (std::int32_t p : piece.points) {
+    farthest = std::max(farthest, (lattice.motion[p].position - centre).norm());
+  }
+  piece.size = 2.0 * farthest;
+}
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bullet_bridge/rigid_proxy.h"
+#include "bullet_bridge/switch_policy.h"
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+
+// A connected piece of an object, in either representation.
+struct Piece {
+  std::size_t id = 0;
+  std::size_t object = 0;
+  std::vector<std::int32_t> points;   // of the lattice, ascending
+  PieceStrength strength;
+  double size = 0.0;                  // m, twice the distance of the farthest point
+  std::unique_ptr<RigidProxy> proxy;  // null while flexible
+  double stored_J = 0.0;              // elastic energy, while rigid
+  int calm_ticks = 0;                 // while flexible
+  bool touched = false;               // by anything since it turned flexible
+
+  bool flexible() const { return proxy == nullptr; }
+};
+
+// Strength from the live springs. The wave speed comes from the lattice itself: for an isotropic
+// lattice of central forces sum k l^2 / V = C_iijj = 15 (2/5) E = 6 E in three dimensions, 3 E in two
+// and E in one, so that c = sqrt(E / rho) = sqrt(sum k l^2 / (d M)) with d = 6, 3, 1.
+PieceStrength strength_of(const Lattice& lattice, std::span<const std::int32_t> points);
+
+// Root mean square speed about the piece's rigid motion, m/s.
+double rms_vibration(const Lattice& lattice, std::span<const std::int32_t> points);
+
+// Fills strength and size from the points.
+void measure(Piece& piece, const Lattice& lattice);
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

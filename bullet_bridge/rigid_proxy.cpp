@@ -1,0 +1,187 @@
+#include "bullet_bridge/rigid_proxy.h"
+
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "bullet_bridge/conversions.h"
+#include "bullet_bridge/shadow_body.h"
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+namespace {
+
+// Bullet puts a body to sleep that stayed below these for two seconds; its defaults (0.8 m/s and
+// 1 rad/s) would stop a shard that is still sliding.
+constexpr double kSleepSpeed = 0.05;         // m/s
+constexpr double kSleepAngularSpeed = 0.25;  // rad/s
+
+bool whole(const Lattice& lattice, std::int32_t cell) {
+  return lattice.breaking.cell_valid[cell] != 0;
+}
+
+// Valid cells of the piece, by their edges; a cell belongs to the piece of its first point.
+std::vector<std::int32_t> cells_of(const Lattice& lattice, std::span<const std::int32_t> points) {
+  std::vector<std::int32_t> cells;
+  for (std::int32_t p : points) {
+    for (std::int32_t e : lattice.point_edges[p]) {
+      for (std::int32_t c : lattice.topology.edge_cells[e]) {
+        if (whole(lattice, c)) cells.push_back(c);
+      }
+    }
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+std::vector<std::int32_t> points_of_cell(const Lattice& lattice, std::int32_t cell) {
+  std::vector<std::int32_t> points;
+  for (std::int32_t e : lattice.topology.cell_edges[cell]) {
+    points.push_back(lattice.springs[e].a);
+    points.push_back(lattice.springs[e].b);
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+double volume_of_cell(const Lattice& lattice, std::int32_t cell) {
+  const LatticeObject& object = lattice.objects[lattice.point_object[points_of_cell(lattice, cell)[0]]];
+  return cell_volume(object.authored.geometry,
+                     CellId(static_cast<std::size_t>(cell - object.cells.begin)));
+}
+
+std::vector<ShapeItem> shape_items(const Lattice& lattice, std::span<const std::int32_t> points,
+                                   const ProxyFrame& frame) {
+  const Mat3 to_local = frame.orientation.toRotationMatrix().transpose();
+  const auto local = [&](std::int32_t p) -> Vec3 {
+    return to_local * (lattice.motion[p].position - frame.centre);
+  };
+  std::vector<ShapeItem> items;
+  for (std::int32_t c : cells_of(lattice, points)) {
+    ShapeItem item;
+    for (std::int32_t p : points_of_cell(lattice, c)) item.points.push_back(local(p));
+    item.volume = volume_of_cell(lattice, c);
+    items.push_back(std::move(item));
+  }
+  if (!items.empty()) return items;
+  for (std::int32_t p : points) items.push_back({{local(p)}, 0.0});
+  return items;
+}
+
+}  // namespace
+
+ProxyFrame proxy_frame(const RigidMotion& motion) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> principal(motion.inertia);
+  Mat3 axes = principal.eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(2) = -axes.col(2);
+  ProxyFrame frame;
+  frame.mass = motion.mass;
+  frame.centre = motion.centre;
+  frame.orientation = Eigen::Quaterniond(axes).normalized();
+  const double largest = principal.eigenvalues()[2];
+  frame.moments = principal.eigenvalues().cwiseMax(kSmallestMomentShare * largest);
+  frame.velocity = motion.velocity;
+  frame.angular_velocity =
+      axes * (axes.transpose() * motion.angular_momentum).cwiseQuotient(frame.moments);
+  return frame;
+}
+
+RigidProxy::RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
+                       std::span<const std::int32_t> points)
+    : world_(world) {
+  const ProxyFrame frame = proxy_frame(rigid_motion(lattice.motion, lattice.mass, points));
+  const Mat3 to_local = frame.orientation.toRotationMatrix().transpose();
+  for (std::int32_t p : points) {
+    local_.push_back(to_local * (lattice.motion[p].position - frame.centre));
+  }
+  shape_ = fit_proxy_shape(shape_items(lattice, points, frame));
+  moments_ = frame.moments;
+
+  btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(frame.mass), nullptr,
+                                                &shape_.shape(), to_bullet(frame.moments));
+  const ObjectAttributes& attributes =
+      lattice.objects[lattice.point_object[points[0]]].authored.object;
+  info.m_friction = static_cast<btScalar>(attributes.friction);
+  info.m_restitution = static_cast<btScalar>(attributes.restitution);
+  info.m_linearSleepingThreshold = static_cast<btScalar>(kSleepSpeed);
+  info.m_angularSleepingThreshold = static_cast<btScalar>(kSleepAngularSpeed);
+  info.m_startWorldTransform =
+      btTransform(to_bullet(frame.orientation), to_bullet(frame.centre));
+  body_ = std::make_unique<btRigidBody>(info);
+  body_->setFlags(0);  // gyroscopic torque is fly()'s business: Bullet's loses angular momentum
+  body_->setLinearVelocity(to_bullet(frame.velocity));
+  body_->setAngularVelocity(to_bullet(frame.angular_velocity));
+  world_.addRigidBody(body_.get());
+  remember();
+}
+
+RigidProxy::~RigidProxy() { world_.removeRigidBody(body_.get()); }
+
+void RigidProxy::write_points(Lattice& lattice, std::span<const std::int32_t> points) const {
+  const Vec3 centre = from_bullet(body_->getWorldTransform().getOrigin());
+  const Mat3 rotation =
+      from_bullet(body_->getWorldTransform().getRotation()).toRotationMatrix();
+  const Vec3 velocity = from_bullet(body_->getLinearVelocity());
+  const Vec3 omega = from_bullet(body_->getAngularVelocity());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 arm = rotation * local_[i];
+    lattice.motion[points[i]] = {centre + arm, velocity + omega.cross(arm)};
+  }
+}
+
+RigidMotion RigidProxy::motion() const {
+  RigidMotion motion;
+  const Mat3 rotation =
+      from_bullet(body_->getWorldTransform().getRotation()).toRotationMatrix();
+  const Vec3 inverse = from_bullet(body_->getInvInertiaDiagLocal());
+  motion.mass = 1.0 / body_->getInvMass();
+  motion.centre = from_bullet(body_->getWorldTransform().getOrigin());
+  motion.velocity = from_bullet(body_->getLinearVelocity());
+  motion.inertia = rotation * inverse.cwiseInverse().asDiagonal() * rotation.transpose();
+  motion.angular_velocity = from_bullet(body_->getAngularVelocity());
+  motion.angular_momentum = motion.inertia * motion.angular_velocity;
+  return motion;
+}
+
+void RigidProxy::remember() {
+  start_velocity_ = from_bullet(body_->getLinearVelocity());
+  start_position_ = from_bullet(body_->getWorldTransform().getOrigin());
+  start_orientation_ = from_bullet(body_->getWorldTransform().getRotation());
+  start_angular_velocity_ = from_bullet(body_->getAngularVelocity());
+}
+
+void RigidProxy::fly(double tick) {
+  const Vec3 velocity = from_bullet(body_->getLinearVelocity());
+  const Vec3 position = start_position_ + 0.5 * tick * (start_velocity_ + velocity);
+  Eigen::Quaterniond orientation = start_orientation_;
+  Vec3 omega = start_angular_velocity_;
+  rotate_freely(orientation, omega, moments_, tick);
+  const btTransform pose(to_bullet(orientation), to_bullet(position));
+  body_->setWorldTransform(pose);
+  body_->setInterpolationWorldTransform(pose);
+  body_->setAngularVelocity(to_bullet(omega));
+  body_->updateInertiaTensor();
+}
+
+void rotate_freely(Eigen::Quaterniond& orientation, Vec3& omega, const Vec3& moments, double dt) {
+  const auto world_omega = [&](const Eigen::Quaterniond& q, const Vec3& momentum) -> Vec3 {
+    return q * Vec3((q.conjugate() * momentum).cwiseQuotient(moments));
+  };
+  const Vec3 momentum = orientation * moments.cwiseProduct(orientation.conjugate() * omega);
+  // Turn by at most a twentieth of a radian a step: error per step about its cube.
+  const int steps = 1 + static_cast<int>(omega.norm() * dt / 0.05);
+  const double h = dt / steps;
+  for (int i = 0; i < steps; ++i) {
+    const Eigen::Quaterniond middle =
+        turned(orientation, world_omega(orientation, momentum), 0.5 * h);
+    orientation = turned(orientation, world_omega(middle, momentum), h);
+  }
+  omega = world_omega(orientation, momentum);
+}
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bullet_bridge/proxy_shape.h"
+#include "core/dynamics/lattice.h"
+
+class btDiscreteDynamicsWorld;
+class btRigidBody;
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+
+// Mass properties in the frame of the principal axes, from the deformed points of a piece.
+struct ProxyFrame {
+  double mass = 0.0;               // kg
+  Vec3 centre;                     // m, world
+  Eigen::Quaterniond orientation;  // principal axes to world
+  Vec3 moments;                    // kg m^2, about the principal axes, all > 0
+  Vec3 velocity;                   // P / M
+  Vec3 angular_velocity;           // I^-1 L
+};
+
+// A piece whose points lie on a line has no moment about it (and no angular momentum there either,
+// so that L stays exact): Bullet gets this share of the largest moment instead of zero.
+inline constexpr double kSmallestMomentShare = 1e-4;
+
+ProxyFrame proxy_frame(const RigidMotion& motion);
+
+// The rigid body that stands for a piece in Bullet's world while nothing stresses it. The deformed
+// shape is kept: point i of the piece is at centre + R local[i].
+class RigidProxy {
+ public:
+  RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
+             std::span<const std::int32_t> points);
+  ~RigidProxy();
+  RigidProxy(const RigidProxy&) = delete;
+  RigidProxy& operator=(const RigidProxy&) = delete;
+
+  btRigidBody& body() const { return *body_; }
+  std::span<const Vec3> local() const { return local_; }
+
+  // Puts the points where the body carries them: x = X + R r, v = V + omega x R r.
+  void write_points(Lattice& lattice, std::span<const std::int32_t> points) const;
+
+  // Momentum, angular momentum about its centre and energy as Bullet holds them.
+  RigidMotion motion() const;
+
+  // Free flight. Bullet's step x += v' dt falls g t dt / 2 too far and keeps omega where it should
+  // keep L. remember() before the solver, fly() after the move: the path of constant acceleration
+  // x += (v + v') dt / 2, and the rotation of a free body.
+  void remember();
+  void fly(double tick);
+
+  double impulse = 0.0;  // N s, magnitude of all contact impulses of the last tick
+
+ private:
+  btDiscreteDynamicsWorld& world_;
+  std::vector<Vec3> local_;  // shape (points)
+  ProxyShape shape_;
+  std::unique_ptr<btRigidBody> body_;
+  Vec3 moments_;
+  Vec3 start_velocity_;
+  Vec3 start_position_;
+  Eigen::Quaterniond start_orientation_;
+  Vec3 start_angular_velocity_;
+};
+
+// Rotation of a free rigid body over dt by midpoint steps that keep L to rounding.
+// moments: principal moments; omega: world frame, updated with the orientation.
+void rotate_freely(Eigen::Quaterniond& orientation, Vec3& omega, const Vec3& moments, double dt);
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

@@ -1,0 +1,35 @@
+#include "bullet_bridge/switch_policy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+
+double impact_strain(const PieceStrength& piece, double closing_speed, double partner_mass) {
+  if (closing_speed <= 0.0) return 0.0;
+  // m_red / m = M / (m + M) = 1 / (m / M + 1); exact for an infinite partner.
+  const double share = 1.0 / (piece.mass / partner_mass + 1.0);
+  return closing_speed / piece.wave_speed * std::sqrt(share);
+}
+
+double sustained_strain(const PieceStrength& piece, double force_N, double length_m) {
+  return force_N * length_m / (piece.mass * piece.wave_speed * piece.wave_speed);
+}
+
+double flexible_strain(const PieceStrength& piece, const SwitchSettings& settings) {
+  return std::min(settings.visible_strain, settings.load_share * piece.weakest_strain);
+}
+
+double vibration_strain(const PieceStrength& piece, double rms_speed) {
+  return rms_speed / piece.wave_speed;
+}
+
+bool calm(const PieceStrength& piece, const SwitchSettings& settings, double peak_load,
+          double rms_vibration_speed) {
+  return peak_load < settings.calm_load_share &&
+         vibration_strain(piece, rms_vibration_speed) < 0.5 * flexible_strain(piece, settings);
+}
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

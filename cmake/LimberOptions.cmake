@@ -1,0 +1,33 @@
+option(LIMBER_TESTS "build tests and benchmarks" ON)
+option(LIMBER_WERROR "treat warnings as errors" OFF)
+set(LIMBER_SANITIZE "" CACHE STRING "sanitizers, for instance address,undefined")
+
+# Without a preset CMake would build without optimisation. Release is -O3 -DNDEBUG; no -march: results
+# must not depend on the machine (see -ffp-contract below).
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release or RelWithDebInfo" FORCE)
+endif()
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+
+find_program(CCACHE ccache)
+if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
+endif()
+
+# What every target of the project is compiled with; outside libraries are not touched.
+add_library(limber_build_flags INTERFACE)
+target_compile_options(limber_build_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  $<$<BOOL:${LIMBER_WERROR}>:-Werror>
+  # Fused multiply-add would make results depend on the machine's instruction set.
+  -ffp-contract=off)
+if(LIMBER_SANITIZE)
+  target_compile_options(limber_build_flags INTERFACE
+    -fsanitize=${LIMBER_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(limber_build_flags INTERFACE -fsanitize=${LIMBER_SANITIZE})
+endif()

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/contact/penalty.h"
+#include "core/dynamics/components.h"
+#include "core/dynamics/lattice.h"
+
+namespace limber {
+
+// Point-point penalty collision within and between objects (paper, section 5.1). Two points repel
+// when nearer than the sum of their contact radii; points joined by an unbroken edge do not.
+//
+// Two lists keep the substeps cheap. Pairs of different pieces are found with a uniform grid over
+// the points that lie in another piece's bounding box, and listed anew when something has moved half
+// of the list's skin. Pairs within a piece keep their distance as long as the piece moves rigidly:
+// their list lives until the piece has deformed by half a skin.
+class PointContacts {
+ public:
+  // Lists anew what has to be. `topology_changed`: something broke or roles changed.
+  void refresh(const Lattice& lattice, const Components& pieces, bool topology_changed);
+
+  // Adds the forces of all listed pairs to lattice.force. dt, s: bounds friction.
+  void add_forces(Lattice& lattice, double dt) const;
+
+  std::size_t size() const { return between_.size() + within_.size(); }
+
+ private:
+  struct Pair {
+    std::int32_t a, b;        // a < b
+    double contact_distance;  // m
+    double reduced_mass;      // kg
+    PenaltyContact law;
+  };
+  using Pairs = std::vector<Pair>;  // ascending by (a, b)
+
+  // Points and where they were when a list was made.
+  struct Listing {
+    std::vector<std::int32_t> points;
+    std::vector<Vec3> at;
+    void remember(const Lattice& lattice, std::vector<std::int32_t> of);
+  };
+
+  void group_points(const Lattice& lattice, const Components& pieces);
+  bool moved_too_far(const Lattice& lattice) const;
+  bool deformed_too_far(const Lattice& lattice, const Components& pieces) const;
+  void list_between(const Lattice& lattice);
+  void list_within(const Lattice& lattice);
+  template <class Accept>
+  Pairs near_pairs(const Lattice& lattice, const std::vector<std::int32_t>& points,
+                   Accept accept) const;
+  std::vector<std::int32_t> points_near_other_groups(const Lattice& lattice) const;
+  Pair make_pair(const Lattice& lattice, std::int32_t p, std::int32_t q) const;
+  double eased_contact_distance(const Lattice& lattice, std::int32_t p, std::int32_t q,
+                                double contact_distance) const;
+  void add_forces_of(const Pairs& pairs, Lattice& lattice, double dt) const;
+
+  Pairs between_, within_;
+  Pairs old_between_, old_within_;
+  Listing between_listing_, within_listing_;
+  std::vector<std::int32_t> group_;  // shape (P): piece, or carrying body, of each point
+  std::int32_t group_count_ = 0;
+  bool within_stale_ = true;
+  int refreshes_ = 0;
+  double skin_ = 0.0;  // m
+};
+
+}  // namespace limber

@@ -1,0 +1,53 @@
+#include "core/dynamics/internal_damping.h"
+
+#include <cmath>
+
+namespace limber {
+namespace {
+
+// rigid_motion() of every piece in two passes over the points.
+std::vector<RigidMotion> rigid_motions(const Lattice& lattice, const Components& pieces) {
+  std::vector<RigidMotion> bodies(pieces.count);
+  for (std::int32_t p : lattice.dynamic_points) {
+    RigidMotion& body = bodies[pieces.label[p]];
+    body.mass += lattice.mass[p];
+    body.centre += lattice.mass[p] * lattice.motion[p].position;
+    body.velocity += lattice.mass[p] * lattice.motion[p].velocity;
+  }
+  for (RigidMotion& body : bodies) {
+    body.centre /= body.mass;
+    body.velocity /= body.mass;
+  }
+  for (std::int32_t p : lattice.dynamic_points) {
+    RigidMotion& body = bodies[pieces.label[p]];
+    const Vec3 r = lattice.motion[p].position - body.centre;
+    const double m = lattice.mass[p];
+    body.angular_momentum += m * r.cross(lattice.motion[p].velocity - body.velocity);
+    body.inertia += m * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+  }
+  for (RigidMotion& body : bodies) {
+    body.angular_velocity = angular_velocity_of(body.inertia, body.angular_momentum);
+  }
+  return bodies;
+}
+
+}  // namespace
+
+double damp_internally(Lattice& lattice, const Components& pieces, double t) {
+  std::vector<double> share(lattice.objects.size());
+  for (std::size_t o = 0; o < share.size(); ++o) {
+    share[o] = -std::expm1(-lattice.objects[o].authored.object.internal_damping * t);
+  }
+  const std::vector<RigidMotion> bodies = rigid_motions(lattice, pieces);
+  double loss = 0.0;
+  for (std::int32_t p : lattice.dynamic_points) {
+    const double s = share[lattice.point_object[p]];
+    Vec3& v = lattice.motion[p].velocity;
+    const Vec3 vibration = v - bodies[pieces.label[p]].velocity_at(lattice.motion[p].position);
+    loss += 0.5 * lattice.mass[p] * (1.0 - (1.0 - s) * (1.0 - s)) * vibration.squaredNorm();
+    v -= s * vibration;
+  }
+  return loss;
+}
+
+}  // namespace limber

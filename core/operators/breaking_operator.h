@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/model/physical_model.h"
+
+namespace limber {
+
+// Compressed rows: row i holds items[start[i] .. start[i+1]).
+struct IndexRows {
+  std::vector<std::int32_t> start;  // shape (rows + 1)
+  std::vector<std::int32_t> items;
+
+  std::span<const std::int32_t> operator[](std::size_t row) const {
+    return {items.data() + start[row], items.data() + start[row + 1]};
+  }
+  std::size_t rows() const { return start.empty() ? 0 : start.size() - 1; }
+};
+
+// The links the breaking operator walks; constant while an object is simulated.
+struct BreakingTopology {
+  IndexRows cell_edges;                 // cell -> edges
+  IndexRows edge_cells;                 // edge -> cells, the paper's two-way pointer
+  IndexRows cell_faces;                 // cell -> faces
+  std::vector<std::int32_t> face_cell;  // face -> cell or -1
+  std::vector<std::int32_t> face_twin;  // face -> its reverse face or -1
+  IndexRows edge_sheet_faces;           // edge -> the faces without a cell that it bounds
+};
+
+// What breaking changes.
+struct BreakingState {
+  std::vector<std::uint8_t> edge_broken;    // shape (edges)
+  std::vector<std::uint8_t> cell_valid;     // shape (cells)
+  std::vector<std::uint8_t> face_external;  // shape (faces), maintained by the third step
+};
+
+struct BreakingResult {
+  std::vector<std::int32_t> broken_edges;   // marked and consequent, each once, in order of breaking
+  std::vector<std::int32_t> invalid_cells;  // newly invalid
+  std::vector<std::int32_t> exposed_faces;  // newly external
+};
+
+BreakingTopology breaking_topology(const GeometricModel& geometry);
+BreakingState breaking_state(const PhysicalModel& model, const BreakingTopology& topology);
+
+// The breaking operator (paper, section 5.2), incremental, its cost proportional to what breaks:
+//   1. mark each edge as broken;
+//   2. invalidate every cell it belongs to, and break each edge of those that no valid cell shares;
+//   3. expose the faces that an invalid cell leaves behind.
+// The result does not depend on the order of `edges`. Edges already broken are ignored.
+BreakingResult break_edges(const BreakingTopology& topology, BreakingState& state,
+                           std::span<const std::int32_t> edges);
+
+// The same on an authored model.
+BreakingResult break_edges(PhysicalModel& model, std::span<const EdgeId> edges);
+
+}  // namespace limber

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/model/physical_model.h"
+
+namespace limber {
+
+// The attributes of the edges that glue makes.
+struct GlueBond {
+  double distance = 0.0;              // m: points this near or nearer are joined
+  double stiffness = 0.0;             // N/m
+  double damping = 0.0;               // N s/m
+  double break_strain = kUnbreakable; // threshold = strain x the bond's rest length
+};
+
+struct GlueResult {
+  PhysicalModel model;
+  std::size_t bonds = 0;
+};
+
+// The gluing operator (paper, section 5.3): both models become one, with new edges between every
+// pair of points, one of each, at most `bond.distance` apart. The subobjects of both are kept; the
+// new edges form one more subobject, named "glue: A + B". Object attributes come from `a`; points
+// keep mass and velocity. Rest lengths are today's distances.
+// Throws InputError when no pair is near enough or when two points coincide (a bond without
+// direction).
+GlueResult glue(const PhysicalModel& a, const PhysicalModel& b, const GlueBond& bond);
+
+}  // namespace limber

@@ -1,0 +1,115 @@
+#include "demos/cli/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <ostream>
+
+#include "core/model/errors.h"
+#include "demos/cli/atomic_file.h"
+#include "demos/cli/numbers.h"
+
+namespace limber::demos {
+namespace {
+
+constexpr double kLeastTick = 1e-5;   // s; below, a second takes more than 100,000 rigid steps
+constexpr double kMostTick = 0.1;     // s; above, Bullet's contacts tunnel and jump
+constexpr double kMostSeconds = 1e5;  // s; above, the samples of one run no longer fit in memory
+
+double parse_seconds(const std::string& text) {
+  const double seconds = parse_number(text, "--seconds");
+  if (seconds > 0.0 && seconds <= kMostSeconds) return seconds;
+  throw InputError({"--seconds", fmt::format("{} s is out of range", text),
+                    fmt::format("give more than 0 and at most {} s", kMostSeconds)});
+}
+
+double parse_tick(const std::string& text) {
+  const double tick = parse_number(text, "--tick");
+  if (tick >= kLeastTick && tick <= kMostTick) return tick;
+  throw InputError({"--tick", fmt::format("{} s is out of range", text),
+                    fmt::format("give {} to {} s, 1/60 for instance", kLeastTick, kMostTick)});
+}
+
+Policy parse_policy(const std::string& text) {
+  static const std::map<std::string, Policy> policies = {{"switching", Policy::kSwitching},
+                                                         {"flexible", Policy::kFlexible},
+                                                         {"rigid", Policy::kRigid}};
+  const auto found = policies.find(text);
+  if (found != policies.end()) return found->second;
+  throw InputError({"--policy", fmt::format("there is no policy '{}'", text),
+                    "give switching, flexible or rigid"});
+}
+
+}  // namespace
+
+void add_scene(CLI::App& command, SceneOptions& options, bool required) {
+  command.add_option("SCENE", options.scene, "name of a scene; `limber run` alone lists them")
+      ->required(required)
+      ->type_name("");
+}
+
+void add_set(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&options](const std::vector<std::string>& assignments) {
+            for (const std::string& text : assignments) {
+              const auto [name, value] = parse_assignment(text);
+              options.changes[name] = value;
+            }
+          },
+          "change a parameter of the scene; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->take_all();
+}
+
+void add_seconds(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--seconds", [&](const std::string& s) { options.run.seconds = parse_seconds(s); },
+          "simulated time, s; the scene's own without it")
+      ->type_name("T");
+}
+
+void add_tick(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--tick", [&](const std::string& s) { options.run.tick = parse_tick(s); },
+          "step of the rigid world, s, as 1/60 or 0.01; the scene's own without it")
+      ->type_name("S");
+}
+
+void add_policy(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--policy", [&](const std::string& s) { options.run.policy = parse_policy(s); },
+          "switching (default): rigid until it matters; flexible: always the spring lattice; "
+          "rigid: never")
+      ->type_name("POLICY");
+}
+
+void add_json(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option("--json", options.json,
+                  "write the same facts as JSON; - writes them to standard output, alone")
+      ->type_name("FILE");
+}
+
+void require_json_target(const SceneOptions& options) {
+  if (!options.json.empty() && options.json != "-") require_writable(options.json);
+}
+
+void write_json(const SceneOptions& options, const std::string& text, Terminal& terminal) {
+  if (options.json.empty()) return;
+  if (options.json == "-") {
+    terminal.out << text;
+  } else {
+    write_file_atomically(options.json, text);
+  }
+}
+
+bool tables_wanted(const SceneOptions& options) { return options.json != "-"; }
+
+}  // namespace limber::demos

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+
+#include "demos/cli/command.h"
+#include "demos/scenes/scene.h"
+#include "demos/scenes/simulation.h"
+
+namespace limber::demos {
+
+// What several commands ask for in the same words.
+struct SceneOptions {
+  std::string scene;
+  ParameterValues changes;  // of --set
+  RunOptions run;
+  std::string json;  // file, "-" for standard output, empty for none
+};
+
+// Each adds one option (or the argument SCENE) to a command. The values are checked while the line
+// is parsed and refused with an InputError.
+void add_scene(CLI::App& command, SceneOptions& options, bool required);
+void add_set(CLI::App& command, SceneOptions& options);
+void add_seconds(CLI::App& command, SceneOptions& options);
+void add_tick(CLI::App& command, SceneOptions& options);
+void add_policy(CLI::App& command, SceneOptions& options);
+void add_json(CLI::App& command, SceneOptions& options);
+
+// Checks before any work that the result can be delivered.
+void require_json_target(const SceneOptions& options);
+
+// Delivers `text` to where --json says; does nothing without --json.
+void write_json(const SceneOptions& options, const std::string& text, Terminal& terminal);
+
+// Standard output belongs to the JSON alone once `--json -` asked for it.
+bool tables_wanted(const SceneOptions& options);
+
+}  // namespace limber::demos

@@ -1,0 +1,310 @@
+#include "demos/scenes/simulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "bullet_bridge/stage.h"
+#include "core/operators/boundary_operator.h"
+#include "core/operators/time_operator.h"
+
+namespace limber::demos {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Fragments below this share of the mass are not judged by their speed: a chip may be flicked.
+constexpr double kNotableShare = 0.005;
+
+bullet::CoSimulationSettings settings_of(const RunOptions& options) {
+  bullet::CoSimulationSettings settings;
+  settings.step_scale = options.step_scale;
+  switch (options.policy) {
+    case Policy::kSwitching:
+      settings.representation = bullet::Representation::kSwitching;
+      break;
+    case Policy::kFlexible:
+      settings.representation = bullet::Representation::kAlwaysFlexible;
+      break;
+    case Policy::kRigid:
+      settings.representation = bullet::Representation::kAlwaysRigid;
+      break;
+  }
+  return settings;
+}
+
+double largest_extent(const PhysicalModel& model) {
+  Vec3 low = model.geometry.points[PointId(0)], high = low;
+  for (const Vec3& p : model.geometry.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return (high - low).maxCoeff();
+}
+
+SwitchEvent event_of(const bullet::SwitchRecord& record, const Scene& scene) {
+  SwitchEvent event;
+  event.time_s = record.time;
+  event.body = scene.objects[record.object].name;
+  event.to_flexible = record.books.to_flexible;
+  event.cause = record.cause;
+  event.numbers = record.numbers;
+  event.numbers.emplace_back("piece", static_cast<double>(record.piece));
+  return event;
+}
+
+LedgerTotals totals_of(const bullet::CoSimulation& limber) {
+  LedgerTotals totals;
+  for (const bullet::SwitchRecord& record : limber.switches()) {
+    const bullet::HandOver& books = record.books;
+    totals.momentum_rel = std::max(totals.momentum_rel, books.momentum_defect_rel);
+    totals.angular_momentum_rel =
+        std::max(totals.angular_momentum_rel, books.angular_momentum_defect_rel);
+    (books.to_flexible ? totals.energy_in_J : totals.energy_out_J) += books.kinetic_after_J;
+    totals.energy_discarded_J += books.discarded_J;
+    totals.energy_unaccounted_rel = std::max(totals.energy_unaccounted_rel, books.unaccounted_rel);
+  }
+  totals.energy_stored_J = limber.counters().stored_J;
+  return totals;
+}
+
+}  // namespace
+
+struct Simulation::State {
+  Scene scene;
+  RunOptions options;
+  bullet::Stage stage;
+  std::vector<int> boxes;
+  double time = 0.0;
+  double wall = 0.0;
+  std::vector<TickSample> samples;
+  double fastest_piece_rel = 0.0;
+  double highest_rise = -1e30;
+  std::vector<Vec3> start_centre;                // of each object
+  std::vector<std::vector<PointMotion>> start;   // of each object's points
+  std::vector<std::vector<double>> masses;       // likewise, kg
+
+  State(const Scene& s, const RunOptions& o)
+      : scene(s), options(o), stage(s.gravity, settings_of(o)) {
+    if (options.seconds <= 0.0) options.seconds = scene.seconds;
+    if (options.tick <= 0.0) options.tick = scene.tick;
+    if (scene.floor) stage.add_floor(scene.floor_friction);
+    for (const RigidBox& box : scene.boxes) {
+      boxes.push_back(stage.add_box(
+          {box.half_extents, box.centre, box.mass, box.friction, box.restitution}));
+    }
+    for (const PhysicalModel& model : scene.objects) {
+      remember_start(model);
+      stage.co_simulation().add(model);
+    }
+    take_sample();
+  }
+
+  void remember_start(const PhysicalModel& model) {
+    std::vector<PointMotion> motion;
+    std::vector<double> mass;
+    for (PointId p : ids_of(model.points)) {
+      motion.push_back({model.geometry.points[p], model.points[p].velocity});
+      mass.push_back(model.points[p].mass);
+    }
+    start.push_back(std::move(motion));
+    masses.push_back(std::move(mass));
+    start_centre.push_back(centre_of_all(start.size() - 1));
+  }
+
+  Vec3 centre_of_all(std::size_t object) const {
+    Vec3 sum = Vec3::Zero();
+    double mass = 0.0;
+    for (std::size_t i = 0; i < masses[object].size(); ++i) {
+      mass += masses[object][i];
+      sum += masses[object][i] * start[object][i].position;
+    }
+    return sum / mass;
+  }
+
+  double mass_of(std::size_t object) const {
+    double mass = 0.0;
+    for (double m : masses[object]) mass += m;
+    return mass;
+  }
+
+  void take_sample() {
+    TickSample sample;
+    sample.time_s = time;
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+      const auto [rotation, centre] = stage.co_simulation().placement(o);
+      sample.objects.push_back({centre, rotation});
+    }
+    samples.push_back(std::move(sample));
+    for (const bullet::PieceView& piece : stage.co_simulation().pieces()) watch(piece);
+  }
+
+  // Falling from where it was explains v^2 / 2 + g h; what exceeds it came out of nowhere.
+  void watch(const bullet::PieceView& piece) {
+    const RigidMotion& now = piece.motion;
+    highest_rise = std::max(highest_rise, now.centre.y() - start_centre[piece.object].y());
+    if (now.mass < kNotableShare * mass_of(piece.object)) return;
+    const RigidMotion then = rigid_motion(start[piece.object], masses[piece.object], piece.points);
+    const double fall = scene.gravity.dot(now.centre - then.centre);
+    const double explained = then.velocity.squaredNorm() + 2.0 * std::max(0.0, fall);
+    if (explained <= 0.0) return;
+    fastest_piece_rel = std::max(fastest_piece_rel, std::sqrt(now.velocity.squaredNorm() / explained));
+  }
+
+  void add_pieces(RunResult& result) const {
+    const bullet::CoSimulation& limber = stage.co_simulation();
+    for (const bullet::PieceView& piece : limber.pieces()) {
+      result.piece_masses.push_back(piece.motion.mass);
+    }
+    std::sort(result.piece_masses.rbegin(), result.piece_masses.rend());
+    result.fragments = result.piece_masses.size();
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+      result.debris_mass += std::max(0.0, limber.debris_mass(o));
+      result.total_mass += mass_of(o);
+    }
+  }
+
+  BodySummary summary(std::size_t object) const {
+    const bullet::CoSimulation& limber = stage.co_simulation();
+    BodySummary body;
+    body.name = scene.objects[object].name;
+    body.mass_kg = mass_of(object);
+    const PhysicalModel model = limber.model(object);
+    Vec3 momentum = Vec3::Zero();
+    body.centre_of_mass = Vec3::Zero();
+    for (PointId p : ids_of(model.points)) {
+      momentum += model.points[p].mass * model.points[p].velocity;
+      body.centre_of_mass += model.points[p].mass * model.geometry.points[p];
+    }
+    body.centre_of_mass /= body.mass_kg;
+    body.velocity = momentum / body.mass_kg;
+    for (const EdgeAttributes& e : model.edges) body.broken_edges += e.broken ? 1 : 0;
+    std::size_t flexible = 0;
+    for (const bullet::PieceView& piece : limber.pieces()) {
+      if (piece.object != object) continue;
+      ++body.fragments;
+      flexible += piece.flexible ? 1 : 0;
+    }
+    body.representation = flexible == 0                ? "rigid"
+                          : flexible == body.fragments ? "flexible"
+                                                       : "mixed";
+    return body;
+  }
+};
+
+Simulation::Simulation(const Scene& scene, const RunOptions& options)
+    : state_(std::make_unique<State>(scene, options)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+void Simulation::advance_tick() {
+  const Clock::time_point start = Clock::now();
+  state_->stage.step(state_->options.tick);
+  state_->wall += seconds_since(start);
+  state_->time += state_->options.tick;
+  state_->take_sample();
+}
+
+double Simulation::time_s() const { return state_->time; }
+
+Snapshot Simulation::snapshot() const {
+  Snapshot snapshot;
+  snapshot.time_s = state_->time;
+  snapshot.floor = state_->scene.floor;
+  snapshot.camera = state_->scene.camera;
+  const bullet::CoSimulation& limber = state_->stage.co_simulation();
+  for (std::size_t o = 0; o < limber.object_count(); ++o) {
+    Snapshot::Body body;
+    body.name = state_->scene.objects[o].name;
+    body.surface = boundary(limber.model(o));
+    const std::vector<bool> flexible = limber.flexible_points(o);
+    for (const SurfaceTriangle& triangle : body.surface.triangles) {
+      const auto corner = static_cast<std::size_t>(triangle.corners[0]);
+      body.flexible.push_back(flexible[body.surface.source_point[corner].index()]);
+    }
+    snapshot.bodies.push_back(std::move(body));
+  }
+  for (std::size_t b = 0; b < state_->boxes.size(); ++b) {
+    const auto [centre, rotation] = state_->stage.box_pose(state_->boxes[b]);
+    snapshot.boxes.push_back({state_->scene.boxes[b], centre, rotation});
+  }
+  return snapshot;
+}
+
+RunResult Simulation::result() const {
+  const bullet::CoSimulation& limber = state_->stage.co_simulation();
+  const bullet::Counters& counters = limber.counters();
+  RunResult result;
+  result.scene = state_->scene.name;
+  result.seconds = state_->time;
+  result.tick = state_->options.tick;
+  result.wall_s = state_->wall;
+  result.bodies = state_->scene.objects.size();
+  for (const PhysicalModel& model : state_->scene.objects) {
+    result.points += model.points.size();
+    result.springs += model.edges.size();
+    result.softening = std::max(result.softening, model.object.softening);
+    result.object_size_m = std::max(result.object_size_m, largest_extent(model));
+  }
+  result.spring_updates = counters.spring_updates;
+  result.broken_edges = counters.broken_edges;
+  if (!limber.breaks().empty()) result.first_break_s = limber.breaks().front().time;
+  if (counters.mass_seconds > 0.0) {
+    result.flexible_share = counters.flexible_mass_seconds / counters.mass_seconds;
+  }
+  result.to_flexible = counters.to_flexible;
+  result.to_rigid = counters.to_rigid;
+  if (state_->options.policy == Policy::kSwitching) {
+    result.missed = counters.missed;
+    result.needless = counters.needless;
+  }
+  state_->add_pieces(result);
+  result.fastest_piece_rel = state_->fastest_piece_rel;
+  result.highest_rise_m = state_->highest_rise;
+  result.state_hash = limber.state_hash();
+  result.ledger = totals_of(limber);
+  for (const bullet::SwitchRecord& record : limber.switches()) {
+    result.switches.push_back(event_of(record, state_->scene));
+  }
+  for (std::size_t o = 0; o < state_->scene.objects.size(); ++o) {
+    result.summaries.push_back(state_->summary(o));
+  }
+  result.samples = state_->samples;
+  return result;
+}
+
+RunResult run(const Scene& scene, const RunOptions& options,
+              const std::function<void(double)>& progress) {
+  Simulation simulation(scene, options);
+  const double seconds = options.seconds > 0.0 ? options.seconds : scene.seconds;
+  const double tick = options.tick > 0.0 ? options.tick : scene.tick;
+  const auto ticks = static_cast<int>(std::ceil(seconds / tick - 1e-9));
+  for (int n = 0; n < ticks; ++n) {
+    simulation.advance_tick();
+    if (progress) progress(static_cast<double>(n + 1) / ticks);
+  }
+  return simulation.result();
+}
+
+double spring_rate(const Scene& scene, double wall_seconds) {
+  const auto largest = std::max_element(
+      scene.objects.begin(), scene.objects.end(),
+      [](const auto& a, const auto& b) { return a.edges.size() < b.edges.size(); });
+  Lattice lattice;
+  add_object(lattice, *largest);
+  rebuild_active(lattice);
+  TimeOperator time_operator(lattice);
+  const double dt = time_operator.largest_step();
+  std::uint64_t updates = 0;
+  const Clock::time_point start = Clock::now();
+  do {
+    updates += time_operator.advance_springs_only(100, dt);
+  } while (seconds_since(start) < wall_seconds);
+  return static_cast<double>(updates) / seconds_since(start);
+}
+
+}  // namespace limber::demos
