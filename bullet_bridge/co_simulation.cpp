@@ -72,7 +72,7 @@ class CoSimulation::Impl : public TickHooks {
   void step_lattices(double dt);
   void fly_free_proxies(double dt);
   void split_broken_pieces();
-  void freeze_calm_pieces();
+  void freeze_calm_pieces(double dt);
   void step_debris(double dt);
   void count_time(double dt);
 
@@ -150,12 +150,15 @@ void CoSimulation::Impl::consider_touch(Piece& piece, const btCollisionObject& o
               {"limit_strain", limit}});
 }
 
-// What no prediction foresaw, and what builds up slowly: the impulses of the last tick.
+// What no prediction foresaw, and what builds up slowly: the impulses of the last tick. What its
+// contacts bore when it became rigid is in its shape already; more strains it, less relaxes it.
 void CoSimulation::Impl::judge_impulse(Piece& piece, double dt) {
   const double impulse = piece.proxy->impulse;
-  if (impulse == 0.0) return;
   const double limit = flexible_strain(piece.strength, settings_.switching);
-  const double sustained = sustained_strain(piece.strength, impulse / dt, piece.size);
+  piece.sustained_load = averaged_load(piece.sustained_load, impulse / dt, dt,
+                                       settings_.switching.load_time);
+  const double change = std::abs(piece.sustained_load - piece.carried_load);
+  const double sustained = sustained_strain(piece.strength, change, piece.size);
   // A body at rest receives m g dt a tick, and as much again when its contacts chatter.
   const double weight = 2.0 * world_.getGravity().length() * dt;
   const double jump = std::max(0.0, impulse / piece.strength.mass - weight);
@@ -239,18 +242,24 @@ std::vector<Piece*> CoSimulation::Impl::flexible_pieces() const {
 }
 
 void CoSimulation::Impl::refresh_roles(const std::vector<Piece*>& carried) {
+  const bool carried_changed = !carried.empty() || !lattice_.carried_points.empty();
   for (std::int32_t p : lattice_.carried_points) {
     if (lattice_.role[p] == PointRole::kCarried) lattice_.role[p] = PointRole::kIdle;
   }
-  if (!carried.empty() || !lattice_.carried_points.empty()) roles_stale_ = true;
   for (std::size_t i = 0; i < carried.size(); ++i) {
-    set_role(*carried[i], PointRole::kCarried);
     carried[i]->proxy->write_points(lattice_, carried[i]->points);
-    for (std::int32_t p : carried[i]->points) lattice_.carrier[p] = static_cast<std::int32_t>(i);
+    for (std::int32_t p : carried[i]->points) {
+      lattice_.role[p] = PointRole::kCarried;
+      lattice_.carrier[p] = static_cast<std::int32_t>(i);
+    }
   }
-  if (!roles_stale_) return;
-  rebuild_active(lattice_);
-  time_operator_.roles_changed();
+  if (roles_stale_) {
+    rebuild_active(lattice_);
+    time_operator_.roles_changed();
+  } else if (carried_changed) {
+    rebuild_carried(lattice_);
+    time_operator_.carried_changed();
+  }
   roles_stale_ = false;
 }
 
@@ -334,7 +343,7 @@ void CoSimulation::Impl::after_move(double dt) {
   thawed_.clear();
   if (stepped_lattice_) {
     split_broken_pieces();
-    freeze_calm_pieces();
+    freeze_calm_pieces(dt);
   }
   step_debris(dt);
   time_ += dt;
@@ -410,7 +419,7 @@ Numbers CoSimulation::Impl::calm_numbers(const Piece& piece, double& peak,
           {"limit_strain", 0.5 * flexible_strain(piece.strength, settings_.switching)}};
 }
 
-void CoSimulation::Impl::freeze_calm_pieces() {
+void CoSimulation::Impl::freeze_calm_pieces(double dt) {
   for (Piece* piece : flexible_pieces()) {
     double peak = 0.0, vibration = 0.0;
     Numbers numbers = calm_numbers(*piece, peak, vibration);
@@ -422,8 +431,14 @@ void CoSimulation::Impl::freeze_calm_pieces() {
     if (!switching()) continue;
     const bool quiet = calm(piece->strength, settings_.switching, peak, vibration);
     piece->calm_ticks = quiet ? piece->calm_ticks + 1 : 0;
-    if (piece->calm_ticks < settings_.switching.calm_ticks) continue;
+    if (piece->calm_ticks < calm_ticks_needed(piece->strength, settings_.switching, piece->size,
+                                              dt, piece->touched)) {
+      continue;
+    }
     if (!piece->touched) ++counters_.needless;
+    piece->carried_load =
+        contact_load(lattice_, piece->points, from_bullet(world_.getGravity()));
+    piece->sustained_load = piece->carried_load;
     freeze_piece(*piece, "calm", std::move(numbers));
     // Bullet gives gravity once per stepSimulation; this body has missed it, should more ticks follow.
     piece->proxy->body().applyGravity();

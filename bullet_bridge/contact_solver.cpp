@@ -13,9 +13,10 @@ namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 namespace {
 
-// Substeps for which the points near a body are listed; the list's reach is what the fastest point
-// travels in that time, twice (it may be pushed meanwhile), and a millimetre.
+// Substeps for which the points near a body are listed. A point is listed when it can get there at
+// twice its own speed; a quarter of the fastest point's way and a millimetre allow for pushes.
 constexpr int kListInterval = 32;
+constexpr double kPushShare = 0.25;
 constexpr double kListMargin = 1e-3;  // m
 
 // A penetration that was there when a contact was first seen is taken back at this speed, m/s: it
@@ -65,16 +66,17 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const Lattice& la
   carried_.assign(carried.begin(), carried.end());
   carried_shadow_.clear();
   substep_ = 0;
-  any_touched_ = false;
   for (const btCollisionObject* object : near) {
     obstacles_.push_back(make_obstacle(*object, lattice));
   }
   for (const CarriedPiece& piece : carried_) {
     carried_shadow_.push_back(shadows_.shadow_of(*piece.body));
   }
-  supports_ = gather_support_contacts(*world.getDispatcher(), shadows_);
+  const std::vector<SupportContact> contacts =
+      gather_support_contacts(*world.getDispatcher(), shadows_);
+  supports_ = group_support_contacts(contacts, shadows_);
   supported_.assign(static_cast<std::size_t>(shadows_.size()), false);
-  for (const SupportContact& c : supports_) supported_[c.a] = supported_[c.b] = true;
+  for (const SupportContact& c : contacts) supported_[c.a] = supported_[c.b] = true;
   give_back_offsets();
 }
 
@@ -133,15 +135,19 @@ void ContactSolver::list_candidates(const Lattice& lattice, double dt) {
       obstacle.object->getCollisionShape()->getBoundingSphere(centre, radius);
       body_speed += body.angular_velocity.norm() * radius;
     }
-    const double reach = 2.0 * (fastest + body_speed) * kListInterval * dt + kListMargin;
-    list_candidates_of(obstacle, lattice, reach);
+    const double time = kListInterval * dt;
+    const double least_reach =
+        (2.0 * body_speed + kPushShare * fastest) * time + kListMargin;
+    list_candidates_of(obstacle, lattice, least_reach, 2.0 * time);
   }
 }
 
-void ContactSolver::list_candidates_of(Obstacle& obstacle, const Lattice& lattice, double reach) {
+void ContactSolver::list_candidates_of(Obstacle& obstacle, const Lattice& lattice,
+                                       double least_reach, double time) {
   const std::vector<Candidate> old = std::exchange(obstacle.candidates, {});
   for (std::int32_t p : lattice.dynamic_points) {
     const Vec3 local = to_obstacle_frame(obstacle, lattice.motion[p].position);
+    const double reach = least_reach + lattice.motion[p].velocity.norm() * time;
     for (std::size_t k = 0; k < obstacle.parts.size(); ++k) {
       const double depth = penetration(obstacle.parts[k], local).depth;
       if (depth < -reach) continue;
@@ -190,33 +196,42 @@ void ContactSolver::push(Lattice& lattice, const Obstacle& obstacle, Candidate& 
                                                      slip - separation * normal, dt);
   lattice.force[candidate.point] += force;
   lattice.touched[candidate.point] = 1;
-  if (body.movable()) {
-    body.add_force(-force, point.position);
-    any_touched_ = true;
-  }
+  if (body.movable()) body.add_force(-force, point.position);
 }
 
 void ContactSolver::advance(Lattice& lattice, double dt) {
+  pass_on_carried_forces(lattice);
+  for (int i = 0; i < shadows_.size(); ++i) {
+    ShadowBody& body = shadows_[i];
+    if (!body.movable()) continue;
+    if (body.touched) apply_forces(body, dt);
+    if (!supported_[i]) body.velocity += gravity_of(body) * dt;
+  }
+  for (SupportGroup& group : supports_) {
+    group.loaded = group.loaded || std::any_of(group.bodies.begin(), group.bodies.end(),
+                                               [&](int i) { return shadows_[i].touched; });
+    if (group.loaded) solve_support_contacts(group.contacts, shadows_, dt);
+  }
+  for (int i = 0; i < shadows_.size(); ++i) {
+    if (shadows_[i].moves()) advance_pose(shadows_[i], dt);
+  }
+  move_carried_points(lattice);
+}
+
+void ContactSolver::pass_on_carried_forces(const Lattice& lattice) {
   for (std::size_t i = 0; i < carried_.size(); ++i) {
     ShadowBody& body = shadows_[carried_shadow_[i]];
     for (std::int32_t p : carried_[i].points) {
       if (lattice.force[p].isZero(0.0)) continue;
       body.add_force(lattice.force[p], lattice.motion[p].position);
-      any_touched_ = true;
     }
   }
-  for (int i = 0; i < shadows_.size(); ++i) {
-    ShadowBody& body = shadows_[i];
-    if (!body.movable()) continue;
-    apply_forces(body, dt);
-    if (!supported_[i]) body.velocity += gravity_of(body) * dt;
-  }
-  if (any_touched_) solve_support_contacts(supports_, shadows_, dt);
-  for (int i = 0; i < shadows_.size(); ++i) {
-    if (shadows_[i].movable() || shadows_[i].moves()) advance_pose(shadows_[i], dt);
-  }
+}
+
+void ContactSolver::move_carried_points(Lattice& lattice) const {
   for (std::size_t i = 0; i < carried_.size(); ++i) {
     const ShadowBody& body = shadows_[carried_shadow_[i]];
+    if (!body.moves()) continue;
     for (std::size_t k = 0; k < carried_[i].points.size(); ++k) {
       const Vec3 arm = body.rotation * carried_[i].local[k];
       lattice.motion[carried_[i].points[k]] = {body.position + arm,
@@ -226,15 +241,14 @@ void ContactSolver::advance(Lattice& lattice, double dt) {
 }
 
 void ContactSolver::write_velocities(btDiscreteDynamicsWorld& world, double tick) {
-  if (!any_touched_) return;
+  for (const SupportGroup& group : supports_) {
+    for (int i : group.bodies) shadows_[i].touched = shadows_[i].touched || group.loaded;
+  }
   for (int i = 0; i < shadows_.size(); ++i) {
     ShadowBody& body = shadows_[i];
-    if (!body.movable()) continue;
+    if (!body.movable() || !body.touched) continue;
     // A sleeper that nothing reached sleeps on.
-    if (!body.body->isActive() && body.velocity.isZero(0.0) && body.angular_velocity.isZero(0.0)) {
-      continue;
-    }
-    body.touched = true;  // directly, or through the supports
+    if (!body.body->isActive() && !body.moves()) continue;
     wake(world, *body.body);
     // Bullet is about to add this tick's gravity, which an airborne shadow has had already.
     const Vec3 fall = supported_[i] ? Vec3(Vec3::Zero()) : Vec3(gravity_of(body) * tick);

@@ -61,19 +61,21 @@ class ContactSolver : public SubstepCoupling {
   Obstacle make_obstacle(const btCollisionObject& object, const Lattice& lattice);
   Vec3 to_obstacle_frame(const Obstacle& obstacle, const Vec3& point) const;
   void list_candidates(const Lattice& lattice, double dt);
-  void list_candidates_of(Obstacle& obstacle, const Lattice& lattice, double reach);
+  void list_candidates_of(Obstacle& obstacle, const Lattice& lattice, double least_reach,
+                          double time);
   void push(Lattice& lattice, const Obstacle& obstacle, Candidate& candidate, double dt);
   void give_back_offsets();
+  void pass_on_carried_forces(const Lattice& lattice);
+  void move_carried_points(Lattice& lattice) const;
 
   ShadowSet shadows_;
-  std::vector<SupportContact> supports_;
+  std::vector<SupportGroup> supports_;
   std::vector<Obstacle> obstacles_;
   std::vector<CarriedPiece> carried_;
   std::vector<int> carried_shadow_;
   std::vector<bool> supported_;  // by shadow: has support contacts, so that Bullet adds its gravity
   std::vector<Obstacle> last_tick_;  // to find again what was in contact
   int substep_ = 0;
-  bool any_touched_ = false;
 };
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -43,6 +43,13 @@ double rms_vibration(const Lattice& lattice, std::span<const std::int32_t> point
   return std::sqrt(sum / motion.mass);
 }
 
+double contact_load(const Lattice& lattice, std::span<const std::int32_t> points,
+                    const Vec3& gravity_m_s2) {
+  Vec3 force = Vec3::Zero();
+  for (std::int32_t p : points) force += lattice.force[p] - lattice.mass[p] * gravity_m_s2;
+  return force.norm();
+}
+
 void measure(Piece& piece, const Lattice& lattice) {
   piece.strength = strength_of(lattice, piece.points);
   const Vec3 centre = rigid_motion(lattice.motion, lattice.mass, piece.points).centre;

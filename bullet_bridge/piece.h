@@ -21,6 +21,8 @@ struct Piece {
   double size = 0.0;                  // m, twice the distance of the farthest point
   std::unique_ptr<RigidProxy> proxy;  // null while flexible
   double stored_J = 0.0;              // elastic energy, while rigid
+  double carried_load = 0.0;          // N, of its contacts when it became rigid
+  double sustained_load = 0.0;        // N, of its contacts since then, averaged over time
   int calm_ticks = 0;                 // while flexible
   bool touched = false;               // by anything since it turned flexible
 
@@ -34,6 +36,11 @@ PieceStrength strength_of(const Lattice& lattice, std::span<const std::int32_t> 
 
 // Root mean square speed about the piece's rigid motion, m/s.
 double rms_vibration(const Lattice& lattice, std::span<const std::int32_t> points);
+
+// Magnitude of the contact forces on the piece in the last substep, N: what gravity and the springs,
+// which cancel, leave of the force on its points.
+double contact_load(const Lattice& lattice, std::span<const std::int32_t> points,
+                    const Vec3& gravity_m_s2);
 
 // Fills strength and size from the points.
 void measure(Piece& piece, const Lattice& lattice);

@@ -5,6 +5,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "bullet_bridge/conversions.h"
 
@@ -37,54 +38,91 @@ SupportContact make_contact(const btManifoldPoint& point, int a, int b, const Sh
   return c;
 }
 
-struct ContactGeometry {
-  Vec3 on_a, on_b;
-  double relative_speed(const ShadowBody& a, const ShadowBody& b, const Vec3& axis) const {
-    return axis.dot(a.velocity_at(on_a) - b.velocity_at(on_b));
+// One direction of a contact with what does not change during the sweeps of a substep.
+struct Axis {
+  Vec3 direction;
+  Vec3 arm_a, arm_b;    // r x direction
+  Vec3 turn_a, turn_b;  // I^-1 (r x direction)
+  double effective_mass = 0.0;  // kg
+
+  double relative_speed(const ShadowBody& a, const ShadowBody& b) const {
+    return direction.dot(a.velocity - b.velocity) + arm_a.dot(a.angular_velocity) -
+           arm_b.dot(b.angular_velocity);
   }
-  double inverse_mass(const ShadowBody& a, const ShadowBody& b, const Vec3& axis) const {
-    return a.inverse_effective_mass(on_a, axis) + b.inverse_effective_mass(on_b, axis);
-  }
-  void push(ShadowBody& a, ShadowBody& b, const Vec3& impulse) const {
-    a.apply_impulse(impulse, on_a);
-    b.apply_impulse(-impulse, on_b);
+  void push(ShadowBody& a, ShadowBody& b, double impulse) const {
+    a.velocity += a.inverse_mass * impulse * direction;
+    a.angular_velocity += impulse * turn_a;
+    b.velocity -= b.inverse_mass * impulse * direction;
+    b.angular_velocity -= impulse * turn_b;
   }
 };
 
-ContactGeometry geometry(const SupportContact& c, const ShadowSet& shadows) {
-  return {shadows[c.a].position + shadows[c.a].rotation * c.anchor_a,
-          shadows[c.b].position + shadows[c.b].rotation * c.anchor_b};
+Axis make_axis(const ShadowBody& a, const ShadowBody& b, const Vec3& on_a, const Vec3& on_b,
+               const Vec3& direction) {
+  Axis axis;
+  axis.direction = direction;
+  axis.arm_a = (on_a - a.position).cross(direction);
+  axis.arm_b = (on_b - b.position).cross(direction);
+  axis.turn_a = a.inverse_inertia * axis.arm_a;
+  axis.turn_b = b.inverse_inertia * axis.arm_b;
+  const double inverse_mass = a.inverse_mass + b.inverse_mass + axis.arm_a.dot(axis.turn_a) +
+                              axis.arm_b.dot(axis.turn_b);
+  axis.effective_mass = inverse_mass > 0.0 ? 1.0 / inverse_mass : 0.0;
+  return axis;
 }
 
-void start_from_last_impulse(const SupportContact& c, ShadowSet& shadows) {
-  geometry(c, shadows).push(shadows[c.a], shadows[c.b],
-                            c.impulse * c.normal + c.tangent_impulse[0] * c.tangent[0] +
-                                c.tangent_impulse[1] * c.tangent[1]);
+// A contact ready for the sweeps of one substep.
+struct PreparedContact {
+  SupportContact* contact;
+  double gap = 0.0;  // m, not negative
+  Axis axis[3];      // normal and two tangents
+};
+
+PreparedContact prepare(SupportContact& c, ShadowSet& shadows) {
+  const ShadowBody& a = shadows[c.a];
+  const ShadowBody& b = shadows[c.b];
+  const Vec3 on_a = a.position + a.rotation * c.anchor_a;
+  const Vec3 on_b = b.position + b.rotation * c.anchor_b;
+  return {&c,
+          std::max(0.0, c.normal.dot(on_a - on_b)),
+          {make_axis(a, b, on_a, on_b, c.normal), make_axis(a, b, on_a, on_b, c.tangent[0]),
+           make_axis(a, b, on_a, on_b, c.tangent[1])}};
 }
 
-// Changes one accumulated impulse so that the relative speed along `axis` becomes `wanted`, within
+void start_from_last_impulse(const PreparedContact& prepared, ShadowSet& shadows) {
+  const SupportContact& c = *prepared.contact;
+  ShadowBody& a = shadows[c.a];
+  ShadowBody& b = shadows[c.b];
+  prepared.axis[0].push(a, b, c.impulse);
+  prepared.axis[1].push(a, b, c.tangent_impulse[0]);
+  prepared.axis[2].push(a, b, c.tangent_impulse[1]);
+}
+
+// Changes one accumulated impulse so that the relative speed along the axis becomes `wanted`, within
 // [low, high].
-void solve_axis(const ContactGeometry& at, ShadowBody& a, ShadowBody& b, const Vec3& axis,
-                double wanted, double low, double high, double& accumulated) {
-  const double inverse_mass = at.inverse_mass(a, b, axis);
-  if (inverse_mass <= 0.0) return;
-  const double change = (wanted - at.relative_speed(a, b, axis)) / inverse_mass;
+void solve_axis(const Axis& axis, ShadowBody& a, ShadowBody& b, double wanted, double low,
+                double high, double& accumulated) {
+  const double change = (wanted - axis.relative_speed(a, b)) * axis.effective_mass;
   const double total = std::clamp(accumulated + change, low, high);
-  at.push(a, b, (total - accumulated) * axis);
+  axis.push(a, b, total - accumulated);
   accumulated = total;
 }
 
-void solve_contact(SupportContact& c, ShadowSet& shadows, double dt) {
+void solve_contact(const PreparedContact& prepared, ShadowSet& shadows, double dt) {
+  SupportContact& c = *prepared.contact;
   ShadowBody& a = shadows[c.a];
   ShadowBody& b = shadows[c.b];
-  const ContactGeometry at = geometry(c, shadows);
-  const double gap = std::max(0.0, c.normal.dot(at.on_a - at.on_b));
-  solve_axis(at, a, b, c.normal, -gap / dt, 0.0, 1e300, c.impulse);
-  // A contact that only may close later leaves faster separation alone: low = 0 sees to that.
+  // An open contact may close within dt; faster separation is left alone because low = 0.
+  solve_axis(prepared.axis[0], a, b, -prepared.gap / dt, 0.0, 1e300, c.impulse);
   const double most = c.friction * c.impulse;
   for (int t = 0; t < 2; ++t) {
-    solve_axis(at, a, b, c.tangent[t], 0.0, -most, most, c.tangent_impulse[t]);
+    solve_axis(prepared.axis[t + 1], a, b, 0.0, -most, most, c.tangent_impulse[t]);
   }
+}
+
+int root_of(std::vector<int>& parent, int i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
 }
 
 }  // namespace
@@ -133,10 +171,41 @@ std::vector<SupportContact> gather_support_contacts(btDispatcher& dispatcher, Sh
   return contacts;
 }
 
+std::vector<SupportGroup> group_support_contacts(const std::vector<SupportContact>& contacts,
+                                                 const ShadowSet& shadows) {
+  std::vector<int> parent(static_cast<std::size_t>(shadows.size()));
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const SupportContact& c : contacts) {
+    if (!shadows[c.a].movable() || !shadows[c.b].movable()) continue;
+    const int a = root_of(parent, c.a), b = root_of(parent, c.b);
+    parent[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<int> group_of(parent.size(), -1);
+  std::vector<SupportGroup> groups;
+  for (int i = 0; i < shadows.size(); ++i) {
+    if (!shadows[i].movable()) continue;
+    const int root = root_of(parent, i);
+    if (group_of[root] < 0) {
+      group_of[root] = static_cast<int>(groups.size());
+      groups.emplace_back();
+    }
+    group_of[i] = group_of[root];
+    groups[group_of[i]].bodies.push_back(i);
+  }
+  for (const SupportContact& c : contacts) {
+    const int body = shadows[c.a].movable() ? c.a : c.b;
+    groups[group_of[body]].contacts.push_back(c);
+  }
+  return groups;
+}
+
 void solve_support_contacts(std::vector<SupportContact>& contacts, ShadowSet& shadows, double dt) {
-  for (const SupportContact& c : contacts) start_from_last_impulse(c, shadows);
+  std::vector<PreparedContact> prepared;
+  prepared.reserve(contacts.size());
+  for (SupportContact& c : contacts) prepared.push_back(prepare(c, shadows));
+  for (const PreparedContact& c : prepared) start_from_last_impulse(c, shadows);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (SupportContact& c : contacts) solve_contact(c, shadows, dt);
+    for (const PreparedContact& c : prepared) solve_contact(c, shadows, dt);
   }
 }
 

@@ -49,6 +49,17 @@ inline constexpr int kSupportRings = 3;
 // shadow for each body on the way. Call it when the first ring is in the set.
 std::vector<SupportContact> gather_support_contacts(btDispatcher& dispatcher, ShadowSet& shadows);
 
+// Contacts that hang together through movable bodies: solved as one, and only when the lattice pushed
+// one of their bodies.
+struct SupportGroup {
+  std::vector<SupportContact> contacts;
+  std::vector<int> bodies;  // movable shadows
+  bool loaded = false;
+};
+
+std::vector<SupportGroup> group_support_contacts(const std::vector<SupportContact>& contacts,
+                                                 const ShadowSet& shadows);
+
 // One substep of non-penetration with Coulomb friction: sequential impulses, started from those of
 // the last substep. A gap may close within dt but not beyond.
 void solve_support_contacts(std::vector<SupportContact>& contacts, ShadowSet& shadows, double dt);

@@ -6,6 +6,10 @@
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
+double averaged_load(double average, double load, double dt, double tau) {
+  return average - (load - average) * std::expm1(-dt / tau);
+}
+
 double impact_strain(const PieceStrength& piece, double closing_speed, double partner_mass) {
   if (closing_speed <= 0.0) return 0.0;
   // m_red / m = M / (m + M) = 1 / (m / M + 1); exact for an infinite partner.
@@ -23,6 +27,14 @@ double flexible_strain(const PieceStrength& piece, const SwitchSettings& setting
 
 double vibration_strain(const PieceStrength& piece, double rms_speed) {
   return rms_speed / piece.wave_speed;
+}
+
+int calm_ticks_needed(const PieceStrength& piece, const SwitchSettings& settings, double length_m,
+                      double tick, bool touched) {
+  // A touch that was foreseen but did not come costs one tick, not the whole settling time.
+  const int settled = touched ? settings.calm_ticks : 1;
+  const double period = 2.0 * length_m / piece.wave_speed;
+  return std::max(settled, static_cast<int>(std::ceil(period / tick)));
 }
 
 bool calm(const PieceStrength& piece, const SwitchSettings& settings, double peak_load,

@@ -26,7 +26,13 @@ struct SwitchSettings {
   // of the threshold and its vibration below half of what makes it flexible.
   double calm_load_share = 0.5;
   int calm_ticks = 3;
+  // Time over which a load counts as sustained, s: contacts of a resting body chatter from tick to
+  // tick, and only their average strains it.
+  double load_time = 0.1;
 };
+
+// Running average of a load over the time tau: s + (load - s) (1 - exp(-dt / tau)).
+double averaged_load(double average, double load, double dt, double tau);
 
 // Strain of a piece of mass m that meets a partner of mass M at a closing speed v: the wave of a
 // collinear impact has v / c; a partner lighter than the piece shortens the contact,
@@ -43,6 +49,11 @@ double flexible_strain(const PieceStrength& piece, const SwitchSettings& setting
 
 // The strain that a vibration of r.m.s. speed v about the rigid motion stands for: v / c.
 double vibration_strain(const PieceStrength& piece, double rms_speed);
+
+// Ticks for which a piece of this length has to be quiet: the settings', but at least a period of its
+// slowest longitudinal vibration, 2 L / c, because every vibration stands still for a moment.
+int calm_ticks_needed(const PieceStrength& piece, const SwitchSettings& settings, double length_m,
+                      double tick, bool touched);
 
 // Is a lattice quiet in this tick? peak_load is the largest stretch / threshold seen.
 bool calm(const PieceStrength& piece, const SwitchSettings& settings, double peak_load,

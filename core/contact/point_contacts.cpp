@@ -16,14 +16,6 @@ constexpr double kAuthoredDistanceShare = 0.9;
 // narrower one lists more often. 2 was the cheapest on a breaking teapot (1, 2, 3 and 4 tried).
 constexpr double kSkinShare = 2.0;
 
-bool joined(const Lattice& lattice, std::int32_t p, std::int32_t q) {
-  for (std::int32_t e : lattice.point_edges[p]) {
-    const Spring& s = lattice.springs[e];
-    if ((s.a == q || s.b == q) && !lattice.breaking.edge_broken[e]) return true;
-  }
-  return false;
-}
-
 PenaltyContact law_between(const LatticeObject& a, const LatticeObject& b) {
   PenaltyContact law;
   law.frequency = std::min(a.contact_frequency, b.contact_frequency);
@@ -80,13 +72,13 @@ void PointContacts::Listing::remember(const Lattice& lattice, std::vector<std::i
 }
 
 void PointContacts::refresh(const Lattice& lattice, const Components& pieces,
-                            bool topology_changed) {
-  if (topology_changed) {
+                            bool topology_changed, bool carried_changed) {
+  if (topology_changed || carried_changed) {
     group_points(lattice, pieces);
     skin_ = kSkinShare * largest_radius(lattice, all_points(lattice));
   }
   if (skin_ == 0.0) return;
-  if (topology_changed || moved_too_far(lattice)) list_between(lattice);
+  if (topology_changed || carried_changed || moved_too_far(lattice)) list_between(lattice);
   within_stale_ = within_stale_ || topology_changed ||
                   (refreshes_ % kDeformationCheckInterval == 0 && deformed_too_far(lattice, pieces));
   if (within_stale_ && refreshes_ % kWithinInterval == 0) list_within(lattice);

@@ -18,8 +18,10 @@ namespace limber {
 // their list lives until the piece has deformed by half a skin.
 class PointContacts {
  public:
-  // Lists anew what has to be. `topology_changed`: something broke or roles changed.
-  void refresh(const Lattice& lattice, const Components& pieces, bool topology_changed);
+  // Lists anew what has to be. `topology_changed`: something broke, or other points are dynamic;
+  // `carried_changed`: other points are carried.
+  void refresh(const Lattice& lattice, const Components& pieces, bool topology_changed,
+               bool carried_changed);
 
   // Adds the forces of all listed pairs to lattice.force. dt, s: bounds friction.
   void add_forces(Lattice& lattice, double dt) const;

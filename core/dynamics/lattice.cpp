@@ -62,6 +62,18 @@ IndexRows edges_of_points(const std::vector<Spring>& springs, std::size_t points
   return rows;
 }
 
+std::vector<std::int32_t> neighbours_of_points(const Lattice& lattice) {
+  std::vector<std::int32_t> neighbours;
+  neighbours.reserve(lattice.point_edges.items.size());
+  for (std::size_t p = 0; p < lattice.motion.size(); ++p) {
+    for (std::int32_t e : lattice.point_edges[p]) {
+      const Spring& s = lattice.springs[e];
+      neighbours.push_back(s.a == static_cast<std::int32_t>(p) ? s.b : s.a);
+    }
+  }
+  return neighbours;
+}
+
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -77,6 +89,31 @@ double median_stiffness_per_mass(const PhysicalModel& model) {
     ratios.push_back(model.edges[e].stiffness / mean_mass);
   }
   return median(std::move(ratios));
+}
+
+double median_rest_length(const PhysicalModel& model) {
+  std::vector<double> lengths;
+  for (const EdgeAttributes& e : model.edges) lengths.push_back(e.rest_length);
+  return median(std::move(lengths));
+}
+
+double largest_extent(const PhysicalModel& model) {
+  Vec3 low = Vec3::Constant(kUnbreakable), high = -low;
+  for (const Vec3& p : model.geometry.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return (high - low).maxCoeff();
+}
+
+// omega_c of the object's penalty contacts, rad/s.
+double contact_frequency_of(const PhysicalModel& model) {
+  if (model.edges.empty()) return 0.0;
+  const double spacing = median_rest_length(model);
+  const double to_stand =
+      kStandardGravity * largest_extent(model) / (kContactSinkShare * spacing * spacing);
+  return std::sqrt(
+      std::max(kContactStiffnessShare * median_stiffness_per_mass(model), to_stand));
 }
 
 // Step of semi-implicit Euler with springs K, stiffness-proportional damping and one contact a
@@ -130,12 +167,28 @@ void append_springs(Lattice& lattice, const PhysicalModel& model, std::int32_t f
   }
 }
 
+std::vector<std::int32_t> points_of_role(const Lattice& lattice, PointRole role) {
+  std::vector<std::int32_t> points;
+  for (std::size_t p = 0; p < lattice.role.size(); ++p) {
+    if (lattice.role[p] == role) points.push_back(static_cast<std::int32_t>(p));
+  }
+  return points;
+}
+
 template <class IdType>
 IdRange<IdType> next_range(std::size_t first, std::size_t count) {
   return {static_cast<std::int32_t>(first), static_cast<std::int32_t>(first + count)};
 }
 
 }  // namespace
+
+bool joined(const Lattice& lattice, std::int32_t p, std::int32_t q) {
+  for (std::int32_t i = lattice.point_edges.start[p]; i < lattice.point_edges.start[p + 1]; ++i) {
+    if (lattice.point_neighbours[i] != q) continue;
+    if (!lattice.breaking.edge_broken[lattice.point_edges.items[i]]) return true;
+  }
+  return false;
+}
 
 std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   require_valid(model);
@@ -144,7 +197,7 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   object.edges = next_range<EdgeId>(lattice.springs.size(), model.edges.size());
   object.faces = next_range<FaceId>(lattice.topology.face_cell.size(), model.faces.size());
   object.cells = next_range<CellId>(lattice.breaking.cell_valid.size(), model.cells.size());
-  object.contact_frequency = std::sqrt(kContactStiffnessShare * median_stiffness_per_mass(model));
+  object.contact_frequency = contact_frequency_of(model);
   object.largest_step = largest_step(model, object.contact_frequency);
 
   const BreakingTopology topology = breaking_topology(model.geometry);
@@ -157,6 +210,7 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   append_points(lattice, model);
   append_springs(lattice, model, object.points.begin);
   lattice.point_edges = edges_of_points(lattice.springs, lattice.motion.size());
+  lattice.point_neighbours = neighbours_of_points(lattice);
   object.authored = std::move(model);
   lattice.objects.push_back(std::move(object));
   return lattice.objects.size() - 1;
@@ -174,13 +228,12 @@ void rebuild_active(Lattice& lattice) {
     lattice.active.push_back(s);
     lattice.active_edge.push_back(static_cast<std::int32_t>(e));
   }
-  lattice.dynamic_points.clear();
-  lattice.carried_points.clear();
-  for (std::size_t p = 0; p < lattice.role.size(); ++p) {
-    const auto point = static_cast<std::int32_t>(p);
-    if (lattice.role[p] == PointRole::kDynamic) lattice.dynamic_points.push_back(point);
-    if (lattice.role[p] == PointRole::kCarried) lattice.carried_points.push_back(point);
-  }
+  lattice.dynamic_points = points_of_role(lattice, PointRole::kDynamic);
+  rebuild_carried(lattice);
+}
+
+void rebuild_carried(Lattice& lattice) {
+  lattice.carried_points = points_of_role(lattice, PointRole::kCarried);
 }
 
 void slacken(Lattice& lattice, std::span<const std::int32_t> broken_edges) {

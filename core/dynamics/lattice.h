@@ -54,6 +54,7 @@ struct Lattice {
 
   std::vector<Spring> springs;  // shape (E), as added
   IndexRows point_edges;        // point -> edges
+  std::vector<std::int32_t> point_neighbours;  // other end of each edge in point_edges.items
   BreakingTopology topology;
   BreakingState breaking;
 
@@ -70,12 +71,18 @@ struct Lattice {
   std::span<const double> masses() const { return mass; }
 };
 
+// Are the points joined by an unbroken edge?
+bool joined(const Lattice& lattice, std::int32_t p, std::int32_t q);
+
 // Appends a model; all its points start dynamic. Throws InputError where validate() objects.
 // Returns the index of the object. Call rebuild_active() afterwards.
 std::size_t add_object(Lattice& lattice, PhysicalModel model);
 
 // Refreshes `active`, `dynamic_points` and `carried_points` after breaks and changes of role.
 void rebuild_active(Lattice& lattice);
+
+// Refreshes `carried_points` alone.
+void rebuild_carried(Lattice& lattice);
 
 // Makes the active copies of just broken edges slack; they stay in the list until the next rebuild.
 void slacken(Lattice& lattice, std::span<const std::int32_t> broken_edges);
@@ -91,5 +98,10 @@ double elastic_energy(const Lattice& lattice, std::span<const std::int32_t> poin
 // 10 times more or less moves the first break by less than a millisecond, but the amount of dust by
 // a factor of two to three.
 inline constexpr double kContactStiffnessShare = 0.1;
+
+// A soft or tall object gets more: standing on the ground it may sink by this share of its spacing a.
+// Its lowest points bear columns of H / a points each, so that they sink by g (H / a) / omega_c^2.
+inline constexpr double kContactSinkShare = 0.05;
+inline constexpr double kStandardGravity = 9.80665;  // m/s^2
 
 }  // namespace limber

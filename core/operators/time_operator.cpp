@@ -73,8 +73,8 @@ std::uint64_t TimeOperator::advance_springs_only(int substeps, double dt) {
 }
 
 void TimeOperator::refresh_contacts() {
-  contacts_.refresh(lattice_, pieces(), contacts_stale_);
-  contacts_stale_ = false;
+  contacts_.refresh(lattice_, pieces(), contacts_stale_, carried_stale_);
+  contacts_stale_ = carried_stale_ = false;
 }
 
 void TimeOperator::apply_gravity(const Vec3& gravity) {

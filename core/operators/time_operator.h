@@ -55,8 +55,9 @@ class TimeOperator {
   // Pieces as of the last substep.
   const Components& pieces();
 
-  // To be told when roles were changed (rebuild_active was called).
+  // To be told after rebuild_active(), and after rebuild_carried() alone.
   void roles_changed();
+  void carried_changed() { carried_stale_ = true; }
 
  private:
   void refresh_contacts();
@@ -72,6 +73,7 @@ class TimeOperator {
   Components pieces_;
   bool pieces_stale_ = true;
   bool contacts_stale_ = true;
+  bool carried_stale_ = false;
   std::vector<std::int32_t> overstretched_;  // active springs of this substep
   std::size_t slack_ = 0;                    // active springs that broke since the last rebuild
 };

@@ -57,13 +57,19 @@ Vec3 sky_vector(const Vec3& direction) {
                                                                    : Vec3(0.0, 0.0, -1.0);
 }
 
+// POV-Ray wants the horizontal angle of view, degrees.
+double horizontal_angle(double vertical_deg, double aspect) {
+  const double half = std::clamp(vertical_deg, 1.0, 170.0) * M_PI / 360.0;
+  return 2.0 * std::atan(std::tan(half) * aspect) * 180.0 / M_PI;
+}
+
 std::string camera_text(const Camera& camera, const PictureSize& size) {
   const Vec3 direction = view(camera);
   const double aspect = static_cast<double>(size.width) / size.height;
   return fmt::format(
       "camera {{ perspective location {} sky {} up y right -x*{} angle {} look_at {} }}\n",
       pov(camera.position), pov(sky_vector(direction)), pov(aspect),
-      pov(std::clamp(camera.field_of_view_deg, 1.0, 170.0)),
+      pov(horizontal_angle(camera.field_of_view_deg, aspect)),
       pov(Vec3(camera.position + direction)));
 }
 

@@ -29,9 +29,9 @@ PhysicalModel cube(const std::string& name, int cells, const Material& material,
 Material jelly() {
   Material m;
   m.density = 1000.0;
-  m.youngs_modulus = 3e4;  // soft gelatine
+  m.youngs_modulus = 1.5e5;  // firm gelatine
   m.damping_ratio = 0.1;
-  m.internal_damping = 0.5;
+  m.internal_damping = 1.0;
   m.friction = 0.6;
   return m;
 }
@@ -59,7 +59,7 @@ Scene build(const ParameterValues& values) {
   scene.objects.push_back(
       cube("brick", 6, brick(values.at("softening")), brick_centre, {0.6, 0.3, 0.2}));
   set_wobbling(scene.objects[0], jelly_centre, values.at("wobble"));
-  scene.camera = {{0.0, 0.6, 1.9}, {0.0, 0.25, 0.0}, 40.0};
+  scene.camera = {{0.5, 0.75, 1.9}, {0.0, 0.33, 0.0}, 30.0};
   return scene;
 }
 
@@ -69,7 +69,7 @@ SceneEntry jelly_and_brick() {
   return {"jelly_and_brick",
           "a soft cube and a stiff brick dropped side by side, the cube set wobbling",
           {{"height", 0.5, "m", "of the lowest points above the floor"},
-           {"wobble", 1.5, "1/s", "rate at which the jelly is being stretched at the start"},
+           {"wobble", 3.0, "1/s", "rate at which the jelly is being stretched at the start"},
            {"softening", 1000.0, "", "S of the brick: modulus / S, strain at break x sqrt S"}},
           build};
 }

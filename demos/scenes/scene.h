@@ -22,7 +22,7 @@ struct RigidBox {
 struct Camera {
   Vec3 position = {0.0, 1.0, 2.0};  // m
   Vec3 target = {0.0, 0.5, 0.0};    // m
-  double field_of_view_deg = 40.0;  // horizontal
+  double field_of_view_deg = 30.0;  // vertical: any shape of picture shows the same height
 };
 
 // Everything that one run needs: demo, test, benchmark and bug report share it. Static floor at

@@ -8,7 +8,7 @@ namespace limber::demos {
 
 // A ceramic Utah teapot. The defaults are those of the scene `tipsy_teapot`.
 struct TeapotOptions {
-  double spacing = 0.0085;        // m, of neighbouring points
+  double spacing = 0.0075;        // m, of neighbouring points
   double wall_thickness = 0.005;  // m
   double density = 2400.0;        // kg/m^3
   double softening = 2000.0;      // real modulus / simulated modulus, see Material

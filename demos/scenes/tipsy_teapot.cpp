@@ -30,8 +30,8 @@ RigidBox table() {
 RigidBox wooden_block() {
   RigidBox box;
   box.name = "block";
-  box.half_extents = {0.02, 0.10, 0.06};
-  box.centre = {0.24, 0.10, 0.0};
+  box.half_extents = {0.008, 0.09, 0.05};
+  box.centre = {0.18, 0.09, 0.0};
   box.mass = 600.0 * 8.0 * box.half_extents.prod();  // spruce, 600 kg/m^3
   box.colour = {0.75, 0.55, 0.3};
   return box;
@@ -51,7 +51,7 @@ Scene build(const ParameterValues& values) {
   scene.seconds = 4.0;
   scene.objects.push_back(std::move(teapot));
   scene.boxes = {table(), wooden_block()};
-  scene.camera = {{0.55, 1.15, 1.75}, {0.05, 0.62, 0.0}, 48.0};
+  scene.camera = {{1.05, 1.25, 2.05}, {0.06, 0.66, 0.0}, 36.0};
   return scene;
 }
 

@@ -1,0 +1,221 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "tests/bridge/measure.h"
+#include "tests/bridge/models.h"
+#include "tests/bridge/substep_reference.h"
+#include "tests/bridge/world.h"
+
+// A lattice falls on a stack of three boxes. What Limber integrates at the substep rate inside of one
+// tick is compared with a world whose tick is the substep, in which Bullet itself solves every contact
+// that often.
+
+namespace limber::bullet::test {
+namespace {
+
+constexpr int kSubsteps = 256;
+constexpr double kImpactSpeed = 3.0;  // m/s, downwards
+const Vec3 kBoxHalf(0.25, 0.15, 0.25);
+
+struct Stack {
+  std::string name;
+  std::array<double, 3> masses;  // kg, from the bottom
+  Vec3 offset;                   // of the lattice from the stack's axis, m
+  Vec3 sideways;                 // its velocity beside the fall, m/s
+};
+
+void PrintTo(const Stack& stack, std::ostream* out) { *out << stack.name; }
+
+struct Outcome {
+  std::array<Sums, 4> bodies;  // three boxes and the lattice
+  std::array<Vec3, 3> spins;
+  double energy = 0.0;         // J, of all
+  double most_energy = 0.0;    // J, highest of any 1/60 s
+  double start_energy = 0.0;   // J
+  double lattice_depth = 0.0;  // m, deepest lattice point in a box, of any 1/60 s
+  double box_depth = 0.0;      // m, how far the stack's boxes sank into one another, by their height
+};
+
+double deepest_point(const PhysicalModel& model, const btRigidBody& box) {
+  double depth = 0.0;
+  for (const Vec3& x : model.geometry.points) {
+    const btTransform& pose = box.getWorldTransform();
+    const Vec3 local = from_bullet(pose.getRotation()).conjugate() *
+                       (x - from_bullet(pose.getOrigin()));
+    const double inside = (kBoxHalf - local.cwiseAbs()).minCoeff();
+    depth = std::max(depth, inside);
+  }
+  return depth;
+}
+
+double deepest_support(btDiscreteDynamicsWorld& world) {
+  double depth = 0.0;
+  btDispatcher& dispatcher = *world.getDispatcher();
+  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
+    for (int c = 0; c < manifold.getNumContacts(); ++c) {
+      depth = std::max(depth, -double(manifold.getContactPoint(c).getDistance()));
+    }
+  }
+  return depth;
+}
+
+// The stack at rest, and the lattice just above it.
+struct Scene {
+  World world;
+  std::vector<btRigidBody*> boxes;
+  PhysicalModel model;
+};
+
+std::unique_ptr<Scene> make_scene(const Stack& stack) {
+  auto scene = std::make_unique<Scene>();
+  World& world = scene->world;
+  world.add_ground();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 centre(0.0, (2 * i + 1) * kBoxHalf.y(), 0.0);
+    scene->boxes.push_back(&world.add_box(kBoxHalf, stack.masses[i], centre));
+    scene->boxes.back()->setActivationState(DISABLE_DEACTIVATION);
+  }
+  // With its usual 10 iterations Bullet's own stack of 100 : 1 sinks together before anything hits it.
+  world->getSolverInfo().m_numIterations = 500;
+  world.run(0.5, kTick);
+  const double height = scene->boxes[2]->getWorldTransform().getOrigin().y();
+  EXPECT_NEAR(height, 5.0 * kBoxHalf.y(), 0.005) << "the stack does not stand by itself";
+  const Vec3 start = stack.offset + Vec3(0.0, 6.0 * kBoxHalf.y() + 0.15 + 0.01, 0.0);
+  scene->model = make_block({}, start, stack.sideways - kImpactSpeed * Vec3::UnitY());
+  return scene;
+}
+
+void note(Outcome& outcome, Scene& scene, const PhysicalModel& model) {
+  outcome.bodies[3] = sums_of(model);
+  outcome.energy = outcome.bodies[3].energy(kGravity);
+  for (int i = 0; i < 3; ++i) {
+    const btRigidBody& box = *scene.boxes[i];
+    outcome.bodies[i] = sums_of(box);
+    outcome.spins[i] = from_bullet(box.getAngularVelocity());
+    outcome.energy += outcome.bodies[i].energy(kGravity);
+    outcome.lattice_depth = std::max(outcome.lattice_depth, deepest_point(model, box));
+  }
+  outcome.most_energy = std::max(outcome.most_energy, outcome.energy);
+  outcome.box_depth = std::max(outcome.box_depth, deepest_support(*scene.world));
+}
+
+Outcome limbers(const Stack& stack, double seconds, double tick) {
+  const auto scene = make_scene(stack);
+  const double scale = step_scale_for(scene->model, kTick / kSubsteps);
+  CoSimulation simulation(*scene->world, settings_for(Representation::kAlwaysFlexible, scale));
+  simulation.add(scene->model);
+  Outcome outcome;
+  note(outcome, *scene, scene->model);
+  outcome.start_energy = outcome.energy;
+  for (double t = 0.5 * kTick; t < seconds; t += kTick) {
+    scene->world.run(kTick, tick);
+    EXPECT_FALSE(simulation.failure());
+    note(outcome, *scene, simulation.model(0));
+  }
+  return outcome;
+}
+
+Outcome at_the_substep_rate(const Stack& stack, double seconds) {
+  const auto scene = make_scene(stack);
+  SubstepReference reference(scene->world, scene->model);
+  Outcome outcome;
+  note(outcome, *scene, scene->model);
+  outcome.start_energy = outcome.energy;
+  for (double t = 0.5 * kTick; t < seconds; t += kTick) {
+    for (int n = 0; n < kSubsteps; ++n) reference.step(kTick / kSubsteps);
+    note(outcome, *scene, reference.model());
+  }
+  return outcome;
+}
+
+struct Deviation {
+  double velocity = 0.0;  // m/s, worst of three boxes and the lattice
+  double spin = 0.0;      // m/s, of the boxes' rims
+  double position = 0.0;  // m
+};
+
+Deviation between(const Outcome& a, const Outcome& b) {
+  Deviation worst;
+  for (int i = 0; i < 4; ++i) {
+    worst.velocity =
+        std::max(worst.velocity, (a.bodies[i].velocity() - b.bodies[i].velocity()).norm());
+    worst.position = std::max(worst.position, (a.bodies[i].centre() - b.bodies[i].centre()).norm());
+  }
+  for (int i = 0; i < 3; ++i) {
+    worst.spin = std::max(worst.spin, (a.spins[i] - b.spins[i]).norm() * kBoxHalf.norm());
+  }
+  return worst;
+}
+
+class StackImpact : public testing::TestWithParam<Stack> {};
+
+TEST_P(StackImpact, IsThatOfEverythingAtTheSubstepRate) {
+  constexpr double kSeconds = 0.2;
+  const Outcome reference = at_the_substep_rate(GetParam(), kSeconds);
+  const Outcome mid = limbers(GetParam(), kSeconds, kTick / kSubsteps);
+  const Deviation dmid = between(mid, reference);
+  RecordProperty("dvmid", testing::PrintToString(dmid.velocity));
+  RecordProperty("dxmid", testing::PrintToString(dmid.position));
+  const Outcome got = limbers(GetParam(), kSeconds, kTick);
+  const Deviation deviation = between(got, reference);
+  const auto record = [this](const std::string& name, double value) {
+    RecordProperty(name, testing::PrintToString(value));
+  };
+  record("dv", deviation.velocity);
+  record("dspin", deviation.spin);
+  record("dx", deviation.position);
+  record("E0", reference.start_energy);
+  record("E_ref", reference.energy);
+  record("E_got", got.energy);
+  record("E_most", got.most_energy);
+  record("depth_ref", reference.lattice_depth);
+  record("depth_got", got.lattice_depth);
+  record("boxes_ref", reference.box_depth);
+  record("boxes_got", got.box_depth);
+  for (int i = 0; i < 4; ++i) {
+    record("v_ref" + std::to_string(i), reference.bodies[i].velocity().y());
+    record("v_got" + std::to_string(i), got.bodies[i].velocity().y());
+    record("vx_ref" + std::to_string(i), reference.bodies[i].velocity().x());
+    record("vx_got" + std::to_string(i), got.bodies[i].velocity().x());
+  }
+
+  // 5 % of the impact speed: a tick of gravity (0.16 m/s) is what Bullet's own contacts are sharp to.
+  constexpr double kVelocityTolerance = 0.05 * kImpactSpeed;
+  EXPECT_LT(deviation.velocity, kVelocityTolerance);
+  EXPECT_LT(deviation.spin, 2.0 * kVelocityTolerance);
+  // That velocity over the time since the impact.
+  EXPECT_LT(deviation.position, kVelocityTolerance * kSeconds);
+  // Boxes and ground are inelastic: nothing may bring energy in. 1 % for Bullet's rounding.
+  EXPECT_LT(got.most_energy, reference.start_energy * 1.01);
+  // A few per cent of what the impact brought (36 J).
+  EXPECT_NEAR(got.energy, reference.energy, 0.05 * 0.5 * 8.0 * kImpactSpeed * kImpactSpeed);
+  EXPECT_LT(got.lattice_depth, reference.lattice_depth + 0.002);
+  EXPECT_LT(got.box_depth, reference.box_depth + 0.005);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Masses, StackImpact,
+    testing::Values(Stack{"Equal", {2, 2, 2}, Vec3::Zero(), Vec3::Zero()},
+                    Stack{"LightOnHeavy", {20, 2, 0.2}, Vec3::Zero(), Vec3::Zero()},
+                    Stack{"HeavyOnLight", {0.2, 2, 20}, Vec3::Zero(), Vec3::Zero()},
+                    Stack{"AllLight", {0.2, 0.2, 0.2}, Vec3::Zero(), Vec3::Zero()},
+                    Stack{"AllHeavy", {20, 20, 20}, Vec3::Zero(), Vec3::Zero()},
+                    Stack{"EqualOffCentre", {2, 2, 2}, {0.12, 0, 0.07}, {1.0, 0, 0.5}},
+                    Stack{"LightOnHeavyOffCentre", {20, 2, 0.2}, {0.12, 0, 0.07}, {1.0, 0, 0.5}},
+                    Stack{"HeavyOnLightOffCentre", {0.2, 2, 20}, {0.12, 0, 0.07}, {1.0, 0, 0.5}},
+                    Stack{"AllLightOffCentre", {0.2, 0.2, 0.2}, {0.12, 0, 0.07}, {1.0, 0, 0.5}},
+                    // A millimetre higher: a box of 0.2 kg under 8 kg must not slip out for that.
+                    Stack{"AllLightHigher", {0.2, 0.2, 0.2}, {0.12, 0.001, 0.07}, {1.0, 0, 0.5}},
+                    Stack{"AllHeavyOffCentre", {20, 20, 20}, {0.12, 0, 0.07}, {1.0, 0, 0.5}},
+                    Stack{"EqualOnTheEdge", {2, 2, 2}, {0.3, 0, 0}, Vec3::Zero()},
+                    Stack{"AllLightOnTheEdge", {0.2, 0.2, 0.2}, {0.3, 0, 0}, Vec3::Zero()},
+                    Stack{"AllHeavyOnTheEdge", {20, 20, 20}, {0.3, 0, 0}, Vec3::Zero()},
+                    Stack{"EqualSideways", {2, 2, 2}, Vec3::Zero(), {2.0, 0, 0}}),
+    [](const auto& stack) { return stack.param.name; });
+
+}  // namespace
+}  // namespace limber::bullet::test
