@@ -1,5 +1,6 @@
 #include "bullet_bridge/co_simulation.h"
 
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -54,6 +55,7 @@ class CoSimulation::Impl : public TickHooks {
   Debris debris_;
   std::vector<std::unique_ptr<Piece>> pieces_;  // ascending by id
   std::unordered_map<const btCollisionObject*, Piece*> piece_of_;  // look-ups only
+  std::vector<std::pair<const btCollisionObject*, const btCollisionObject*>> passing_;
   std::vector<std::unique_ptr<RigidProxy>> thawed_;  // to be removed when bodies have moved
   std::size_t next_piece_ = 0;
   double time_ = 0.0;
@@ -79,9 +81,11 @@ class CoSimulation::Impl : public TickHooks {
   bool switching() const { return settings_.representation == Representation::kSwitching; }
   void consider_touch(Piece& piece, const btCollisionObject& other, double dt);
   void consider_lattice_hit(const Piece& flexible, Piece& proxy, double dt);
+  bool material_meets(Piece& piece, const btCollisionObject& other, double limit,
+                      const PredictedTouch& touch, double dt);
   void thaw_piece(Piece& piece, const std::string& cause, Numbers numbers);
   void freeze_piece(Piece& piece, const std::string& cause, Numbers numbers);
-  void clear_manifolds_of_thawed();
+  void clear_unwanted_manifolds();
   void refresh_roles(const std::vector<Piece*>& carried);
   void set_role(const Piece& piece, PointRole role);
   std::vector<Piece*> flexible_pieces() const;
@@ -89,7 +93,8 @@ class CoSimulation::Impl : public TickHooks {
   bool becomes_debris(std::span<const std::int32_t> points) const;
   Piece& add_piece(std::size_t object, std::vector<std::int32_t> points);
   void judge_impulse(Piece& piece, double dt);
-  Numbers calm_numbers(const Piece& piece, double& peak, double& vibration) const;
+  Calmness look_at(const Piece& piece) const;
+  Numbers numbers_of(const Piece& piece, const Calmness& seen) const;
 
   SolverDecorator decorator_;  // last: attaches when all is ready, detaches first
 };
@@ -107,7 +112,7 @@ void CoSimulation::Impl::before_solve(double dt) {
     if (switching()) {
       thaw_what_will_be_hit(dt);
       thaw_what_lattices_hit(dt);
-      clear_manifolds_of_thawed();
+      clear_unwanted_manifolds();
     }
     step_lattices(dt);
   } catch (const SimulationError& error) {
@@ -142,12 +147,29 @@ void CoSimulation::Impl::consider_touch(Piece& piece, const btCollisionObject& o
   const std::optional<PredictedTouch> touch = predict_touch(body, other, dt);
   if (!touch) return;
   const double strain = impact_strain(piece.strength, touch->closing_speed, partner);
-  if (strain <= limit) return;
+  if (strain <= limit || !material_meets(piece, other, limit, *touch, dt)) return;
   thaw_piece(piece, "touch",
              {{"closing_m_s", touch->closing_speed},
               {"gap_m", touch->gap},
               {"strain", strain},
               {"limit_strain", limit}});
+}
+
+// Hulls are larger than the material in them, and the prediction allows for turning: do points really
+// meet within the tick? Where only the hulls of two proxies do, Bullet is told to let them pass.
+bool CoSimulation::Impl::material_meets(Piece& piece, const btCollisionObject& other, double limit,
+                                        const PredictedTouch& touch, double dt) {
+  const auto partner = piece_of_.find(&other);
+  if (partner == piece_of_.end()) {
+    return touch.gap <= 0.0 || !other.getCollisionShape()->isConvex() ||
+           points_reach(piece.proxy->body(), piece.proxy->local(), other, dt);
+  }
+  piece.proxy->write_points(lattice_, piece.points);
+  partner->second->proxy->write_points(lattice_, partner->second->points);
+  const double closing = closing_speed(lattice_, piece.points, partner->second->points, dt);
+  if (impact_strain(piece.strength, closing, mass_of(other)) > limit) return true;
+  passing_.emplace_back(&piece.proxy->body(), &other);
+  return false;
 }
 
 // What no prediction foresaw, and what builds up slowly: the impulses of the last tick. What its
@@ -217,15 +239,24 @@ void CoSimulation::Impl::thaw_piece(Piece& piece, const std::string& cause, Numb
   thawed_.push_back(std::move(piece.proxy));
 }
 
-void CoSimulation::Impl::clear_manifolds_of_thawed() {
-  if (thawed_.empty()) return;
+// Contacts of bodies that are lattices now, and of hulls that may pass.
+void CoSimulation::Impl::clear_unwanted_manifolds() {
+  if (thawed_.empty() && passing_.empty()) return;
+  const auto may_pass = [&](const btCollisionObject* a, const btCollisionObject* b) {
+    return std::any_of(passing_.begin(), passing_.end(), [&](const auto& pair) {
+      return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
+    });
+  };
   btDispatcher& dispatcher = *world_.getDispatcher();
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
     btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
-    if (!manifold.getBody0()->hasContactResponse() || !manifold.getBody1()->hasContactResponse()) {
+    const btCollisionObject* a = manifold.getBody0();
+    const btCollisionObject* b = manifold.getBody1();
+    if (!a->hasContactResponse() || !b->hasContactResponse() || may_pass(a, b)) {
       manifold.clearManifold();
     }
   }
+  passing_.clear();
 }
 
 void CoSimulation::Impl::set_role(const Piece& piece, PointRole role) {
@@ -409,27 +440,33 @@ void CoSimulation::Impl::split_broken_pieces() {
   roles_stale_ = true;
 }
 
-Numbers CoSimulation::Impl::calm_numbers(const Piece& piece, double& peak,
-                                         double& vibration) const {
-  peak = 0.0;
-  for (std::int32_t p : piece.points) peak = std::max(peak, lattice_.peak_load[p]);
-  vibration = rms_vibration(lattice_, piece.points);
-  return {{"peak_load", peak},
-          {"vibration_strain", vibration_strain(piece.strength, vibration)},
+Calmness CoSimulation::Impl::look_at(const Piece& piece) const {
+  Calmness seen;
+  for (std::int32_t p : piece.points) {
+    seen.peak_load = std::max(seen.peak_load, lattice_.peak_load[p]);
+  }
+  seen.peak_load_before = piece.peak_load;
+  seen.rms_vibration = rms_vibration(lattice_, piece.points);
+  return seen;
+}
+
+Numbers CoSimulation::Impl::numbers_of(const Piece& piece, const Calmness& seen) const {
+  return {{"peak_load", seen.peak_load},
+          {"vibration_strain", vibration_strain(piece.strength, seen.rms_vibration)},
           {"limit_strain", 0.5 * flexible_strain(piece.strength, settings_.switching)}};
 }
 
 void CoSimulation::Impl::freeze_calm_pieces(double dt) {
   for (Piece* piece : flexible_pieces()) {
-    double peak = 0.0, vibration = 0.0;
-    Numbers numbers = calm_numbers(*piece, peak, vibration);
+    const Calmness seen = look_at(*piece);
+    piece->peak_load = seen.peak_load;
     for (std::int32_t p : piece->points) {
       piece->touched = piece->touched || lattice_.touched[p] != 0;
       lattice_.touched[p] = 0;
       lattice_.peak_load[p] = 0.0;
     }
     if (!switching()) continue;
-    const bool quiet = calm(piece->strength, settings_.switching, peak, vibration);
+    const bool quiet = calm(piece->strength, settings_.switching, seen);
     piece->calm_ticks = quiet ? piece->calm_ticks + 1 : 0;
     if (piece->calm_ticks < calm_ticks_needed(piece->strength, settings_.switching, piece->size,
                                               dt, piece->touched)) {
@@ -439,7 +476,7 @@ void CoSimulation::Impl::freeze_calm_pieces(double dt) {
     piece->carried_load =
         contact_load(lattice_, piece->points, from_bullet(world_.getGravity()));
     piece->sustained_load = piece->carried_load;
-    freeze_piece(*piece, "calm", std::move(numbers));
+    freeze_piece(*piece, "calm", numbers_of(*piece, seen));
     // Bullet gives gravity once per stepSimulation; this body has missed it, should more ticks follow.
     piece->proxy->body().applyGravity();
   }
@@ -486,11 +523,10 @@ std::size_t CoSimulation::Impl::add(PhysicalModel model) {
       continue;
     }
     Piece& piece = add_piece(object, std::move(points));
-    double peak = 0.0, vibration = 0.0;
-    Numbers numbers = calm_numbers(piece, peak, vibration);
+    const Calmness seen = look_at(piece);
     const bool rigid = settings_.representation == Representation::kAlwaysRigid ||
-                       (switching() && calm(piece.strength, settings_.switching, peak, vibration));
-    if (rigid) freeze_piece(piece, "start", std::move(numbers));
+                       (switching() && calm(piece.strength, settings_.switching, seen));
+    if (rigid) freeze_piece(piece, "start", numbers_of(piece, seen));
   }
   roles_stale_ = true;
   return object;

@@ -1,6 +1,7 @@
 #include "bullet_bridge/hand_over.h"
 
 #include <cmath>
+#include <utility>
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -36,8 +37,25 @@ void note_defects(HandOver& books, const RigidMotion& lattice_side, const RigidM
                scale.angular_momentum);
 }
 
-void close_books(HandOver& books) {
-  const double missing = books.kinetic_before_J - books.kinetic_after_J - books.discarded_J;
+// A moment of inertia below this share of the largest cannot take up a body's spin: points 1e-4 of the
+// piece's length off its axis would have to run as fast as its ends.
+constexpr double kLeastSpinningShare = 1e-8;
+
+// Adds the rigid motion that the points lack to the body's P and L.
+void give_motion(Lattice& lattice, std::span<const std::int32_t> points, const RigidMotion& body) {
+  const RigidMotion now = rigid_motion(lattice.motion, lattice.mass, points);
+  const Vec3 dv = (body.momentum() - now.momentum()) / now.mass;
+  const Vec3 domega = angular_velocity_of(
+      now.inertia, body.angular_momentum - now.angular_momentum, kLeastSpinningShare);
+  for (std::int32_t p : points) {
+    PointMotion& point = lattice.motion[p];
+    point.velocity += dv + domega.cross(point.position - now.centre);
+  }
+}
+
+void close_books(HandOver& books, bool regularised) {
+  double missing = books.kinetic_before_J - books.kinetic_after_J - books.discarded_J;
+  if (regularised) books.regularised_J = std::exchange(missing, 0.0);
   books.unaccounted_rel = relative(std::abs(missing), books.kinetic_before_J);
 }
 
@@ -58,7 +76,7 @@ HandOver freeze(btDiscreteDynamicsWorld& world, const Lattice& lattice,
   const RigidMotion after = proxy->motion();
   books.kinetic_after_J = after.kinetic_energy();
   note_defects(books, before, after, scale_of(lattice, points, before.centre));
-  close_books(books);
+  close_books(books, proxy->regularised());
   return books;
 }
 
@@ -68,11 +86,12 @@ HandOver thaw(Lattice& lattice, std::span<const std::int32_t> points, const Rigi
   const RigidMotion before = proxy.motion();
   books.kinetic_before_J = before.kinetic_energy();
   proxy.write_points(lattice, points);
+  give_motion(lattice, points, before);
   const RigidMotion after = rigid_motion(lattice.motion, lattice.mass, points);
   books.kinetic_after_J = kinetic_energy(lattice.motion, lattice.mass, points);
   books.elastic_J = elastic_energy(lattice, points);
   note_defects(books, after, before, scale_of(lattice, points, after.centre));
-  close_books(books);
+  close_books(books, proxy.regularised());
   return books;
 }
 

@@ -20,7 +20,10 @@ struct HandOver {
   double kinetic_after_J = 0.0;
   double elastic_J = 0.0;      // in the springs, on either side: stored while rigid
   double discarded_J = 0.0;    // vibration, zero when turning flexible
-  double unaccounted_rel = 0.0;  // |before - after - discarded| / before
+  // Kinetic energy that a piece on a line loses (and gets back) because Bullet needs a moment of
+  // inertia about the line that its points do not have; P and L are kept all the same.
+  double regularised_J = 0.0;
+  double unaccounted_rel = 0.0;  // |before - after - discarded - regularised| / before
 };
 
 // A lattice becomes a body with its P, L and centre of mass. The deformed shape stays, and with it
@@ -28,7 +31,9 @@ struct HandOver {
 HandOver freeze(btDiscreteDynamicsWorld& world, const Lattice& lattice,
                 std::span<const std::int32_t> points, std::unique_ptr<RigidProxy>& proxy);
 
-// A body becomes a lattice again: x_i = X + R r_i, v_i = V + omega x R r_i. The proxy is not removed.
+// A body becomes a lattice again: x_i = X + R r_i, v_i = V + omega x R r_i, with V and omega such
+// that the points have the body's P and L to rounding (Bullet's own numbers may be floats). The proxy
+// is not removed.
 HandOver thaw(Lattice& lattice, std::span<const std::int32_t> points, const RigidProxy& proxy);
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_bridge/contact_shape.h"
 #include "bullet_bridge/conversions.h"
+#include "bullet_bridge/shadow_body.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -26,10 +28,38 @@ struct Collector : btBroadphaseAabbCallback {
   }
 };
 
-std::vector<std::int32_t> sample(std::span<const std::int32_t> points) {
-  const std::size_t stride = 1 + points.size() / kMostSamples;
+struct Bounds {
+  Vec3 low = Vec3::Constant(1e30), high = Vec3::Constant(-1e30);
+  double fastest = 0.0;  // m/s
+  double largest_radius = 0.0;  // m
+
+  bool contains(const Vec3& p, double margin) const {
+    return (p.array() >= low.array() - margin).all() && (p.array() <= high.array() + margin).all();
+  }
+};
+
+Bounds bounds_of(const Lattice& lattice, std::span<const std::int32_t> points) {
+  Bounds b;
+  for (std::int32_t p : points) {
+    b.low = b.low.cwiseMin(lattice.motion[p].position);
+    b.high = b.high.cwiseMax(lattice.motion[p].position);
+    b.fastest = std::max(b.fastest, lattice.motion[p].velocity.squaredNorm());
+    b.largest_radius = std::max(b.largest_radius, lattice.contact_radius[p]);
+  }
+  b.fastest = std::sqrt(b.fastest);
+  return b;
+}
+
+// The points inside the other piece's bounds, thinned to a few hundred.
+std::vector<std::int32_t> points_near(const Lattice& lattice, std::span<const std::int32_t> points,
+                                      const Bounds& other, double margin) {
+  std::vector<std::int32_t> inside;
+  for (std::int32_t p : points) {
+    if (other.contains(lattice.motion[p].position, margin)) inside.push_back(p);
+  }
+  const std::size_t stride = 1 + inside.size() / kMostSamples;
   std::vector<std::int32_t> some;
-  for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
+  for (std::size_t i = 0; i < inside.size(); i += stride) some.push_back(inside[i]);
   return some;
 }
 
@@ -39,16 +69,11 @@ std::vector<const btCollisionObject*> bodies_within_reach(btDiscreteDynamicsWorl
                                                           const Lattice& lattice,
                                                           std::span<const std::int32_t> points,
                                                           double dt) {
-  Vec3 low = Vec3::Constant(1e30), high = Vec3::Constant(-1e30);
-  double fastest = 0.0;
-  for (std::int32_t p : points) {
-    low = low.cwiseMin(lattice.motion[p].position);
-    high = high.cwiseMax(lattice.motion[p].position);
-    fastest = std::max(fastest, lattice.motion[p].velocity.squaredNorm());
-  }
-  const Vec3 reach = Vec3::Constant(1.5 * std::sqrt(fastest) * dt + kReachMargin);
+  const Bounds bounds = bounds_of(lattice, points);
+  const Vec3 reach = Vec3::Constant(1.5 * bounds.fastest * dt + kReachMargin);
   Collector collector;
-  world.getBroadphase()->aabbTest(to_bullet(low - reach), to_bullet(high + reach), collector);
+  world.getBroadphase()->aabbTest(to_bullet(bounds.low - reach),
+                                  to_bullet(bounds.high + reach), collector);
   std::sort(collector.found.begin(), collector.found.end(),
             [](const btCollisionObject* a, const btCollisionObject* b) {
               return a->getWorldArrayIndex() < b->getWorldArrayIndex();
@@ -58,22 +83,45 @@ std::vector<const btCollisionObject*> bodies_within_reach(btDiscreteDynamicsWorl
 
 double closing_speed(const Lattice& lattice, std::span<const std::int32_t> one,
                      std::span<const std::int32_t> other, double dt) {
-  const std::vector<std::int32_t> mine = sample(one), others = sample(other);
-  // A sample with stride s has gaps of sqrt(s) spacings between its points.
-  const double stride = 1.0 + static_cast<double>(std::max(one.size(), other.size()) / kMostSamples);
+  const Bounds bounds_one = bounds_of(lattice, one), bounds_other = bounds_of(lattice, other);
+  // A piece's points are the corners of its cells: another's may pass between them by a spacing.
+  const double touch = 2.0 * (bounds_one.largest_radius + bounds_other.largest_radius);
+  const double margin = (bounds_one.fastest + bounds_other.fastest) * dt + touch;
+  const std::vector<std::int32_t> mine = points_near(lattice, one, bounds_other, margin);
+  const std::vector<std::int32_t> others = points_near(lattice, other, bounds_one, margin);
   double fastest = 0.0;
   for (std::int32_t p : mine) {
     for (std::int32_t q : others) {
       const Vec3 d = lattice.motion[q].position - lattice.motion[p].position;
       const Vec3 w = lattice.motion[q].velocity - lattice.motion[p].velocity;
-      const double distance = d.norm();
-      const double touch =
-          2.0 * std::sqrt(stride) * (lattice.contact_radius[p] + lattice.contact_radius[q]);
+      const double squared = d.squaredNorm();
+      if (squared > margin * margin) continue;
+      const double distance = std::sqrt(squared);
       const double closing = distance > 0.0 ? -w.dot(d) / distance : w.norm();
       if (distance - touch <= closing * dt) fastest = std::max(fastest, closing);
     }
   }
   return fastest;
+}
+
+bool points_reach(const btCollisionObject& body, std::span<const Vec3> local,
+                  const btCollisionObject& other, double dt) {
+  constexpr int kLooks = 4;
+  constexpr double kMargin = 0.003;  // m: g dt^2 / 2 at 1/60 s is 1.4 mm
+  const std::vector<ContactPart> parts = contact_parts(*other.getCollisionShape());
+  ShadowBody mine = make_shadow(body), partner = make_shadow(other);
+  for (int look = 0; look < kLooks; ++look) {
+    advance_pose(mine, dt / kLooks);
+    advance_pose(partner, dt / kLooks);
+    for (const Vec3& r : local) {
+      const Vec3 at = mine.position + mine.rotation * r;
+      const Vec3 there = partner.rotation.transpose() * (at - partner.position);
+      for (const ContactPart& part : parts) {
+        if (penetration(part, there).depth > -kMargin) return true;
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -24,6 +24,7 @@ struct Piece {
   double carried_load = 0.0;          // N, of its contacts when it became rigid
   double sustained_load = 0.0;        // N, of its contacts since then, averaged over time
   int calm_ticks = 0;                 // while flexible
+  double peak_load = 0.0;             // of the last tick, while flexible
   bool touched = false;               // by anything since it turned flexible
 
   bool flexible() const { return proxy == nullptr; }

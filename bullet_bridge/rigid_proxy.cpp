@@ -84,6 +84,7 @@ ProxyFrame proxy_frame(const RigidMotion& motion) {
   frame.orientation = Eigen::Quaterniond(axes).normalized();
   const double largest = principal.eigenvalues()[2];
   frame.moments = principal.eigenvalues().cwiseMax(kSmallestMomentShare * largest);
+  frame.regularised = frame.moments != principal.eigenvalues();
   frame.velocity = motion.velocity;
   frame.angular_velocity =
       axes * (axes.transpose() * motion.angular_momentum).cwiseQuotient(frame.moments);
@@ -100,6 +101,7 @@ RigidProxy::RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
   }
   shape_ = fit_proxy_shape(shape_items(lattice, points, frame));
   moments_ = frame.moments;
+  regularised_ = frame.regularised;
 
   btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(frame.mass), nullptr,
                                                 &shape_.shape(), to_bullet(frame.moments));

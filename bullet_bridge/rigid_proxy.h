@@ -22,6 +22,7 @@ struct ProxyFrame {
   Vec3 moments;                    // kg m^2, about the principal axes, all > 0
   Vec3 velocity;                   // P / M
   Vec3 angular_velocity;           // I^-1 L
+  bool regularised = false;        // a moment was raised
 };
 
 // A piece whose points lie on a line has no moment about it (and no angular momentum there either,
@@ -46,6 +47,9 @@ class RigidProxy {
   // Puts the points where the body carries them: x = X + R r, v = V + omega x R r.
   void write_points(Lattice& lattice, std::span<const std::int32_t> points) const;
 
+  // Was a moment of inertia raised for Bullet (kSmallestMomentShare)?
+  bool regularised() const { return regularised_; }
+
   // Momentum, angular momentum about its centre and energy as Bullet holds them.
   RigidMotion motion() const;
 
@@ -63,6 +67,7 @@ class RigidProxy {
   ProxyShape shape_;
   std::unique_ptr<btRigidBody> body_;
   Vec3 moments_;
+  bool regularised_ = false;
   Vec3 start_velocity_;
   Vec3 start_position_;
   Eigen::Quaterniond start_orientation_;

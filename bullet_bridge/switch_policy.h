@@ -25,6 +25,9 @@ struct SwitchSettings {
   // A lattice becomes rigid again when for `calm_ticks` ticks its peak load stayed below this share
   // of the threshold and its vibration below half of what makes it flexible.
   double calm_load_share = 0.5;
+  // ... or changed by less than this share from tick to tick: a jammed crack may keep a spring at 0.8
+  // of its threshold for ever, at rest.
+  double steady_load_share = 0.05;
   int calm_ticks = 3;
   // Time over which a load counts as sustained, s: contacts of a resting body chatter from tick to
   // tick, and only their average strains it.
@@ -55,9 +58,15 @@ double vibration_strain(const PieceStrength& piece, double rms_speed);
 int calm_ticks_needed(const PieceStrength& piece, const SwitchSettings& settings, double length_m,
                       double tick, bool touched);
 
-// Is a lattice quiet in this tick? peak_load is the largest stretch / threshold seen.
-bool calm(const PieceStrength& piece, const SwitchSettings& settings, double peak_load,
-          double rms_vibration_speed);
+// What was seen of a lattice in one tick.
+struct Calmness {
+  double peak_load = 0.0;         // largest stretch / threshold
+  double peak_load_before = 0.0;  // in the tick before
+  double rms_vibration = 0.0;     // m/s
+};
+
+// Is a lattice quiet in this tick?
+bool calm(const PieceStrength& piece, const SwitchSettings& settings, const Calmness& seen);
 
 }  // namespace LIMBER_BULLET_PRECISION
 }  // namespace limber::bullet

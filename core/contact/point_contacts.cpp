@@ -21,7 +21,6 @@ PenaltyContact law_between(const LatticeObject& a, const LatticeObject& b) {
   law.frequency = std::min(a.contact_frequency, b.contact_frequency);
   law.damping_ratio = damping_ratio_of_restitution(a.authored.object.restitution *
                                                    b.authored.object.restitution);
-  law.friction = a.authored.object.friction * b.authored.object.friction;
   return law;
 }
 
@@ -180,6 +179,8 @@ void PointContacts::list_between(const Lattice& lattice) {
                                  (lattice.role[p] == PointRole::kDynamic ||
                                   lattice.role[q] == PointRole::kDynamic);
                         });
+  // A piece may have split between two points of it: they are in the list above now.
+  std::erase_if(within_, [&](const Pair& pair) { return group_[pair.a] != group_[pair.b]; });
 }
 
 void PointContacts::list_within(const Lattice& lattice) {
@@ -215,7 +216,7 @@ double PointContacts::eased_contact_distance(const Lattice& lattice, std::int32_
                                              std::int32_t q, double contact_distance) const {
   const double now = (lattice.motion[q].position - lattice.motion[p].position).norm();
   if (now >= contact_distance) return contact_distance;
-  for (const Pairs* old : {&old_between_, &old_within_}) {
+  for (const Pairs* old : {&old_between_, &old_within_, &within_}) {
     const auto known = std::lower_bound(old->begin(), old->end(), std::pair(p, q),
                                         [](const Pair& pair, const auto& key) {
                                           return std::pair(pair.a, pair.b) < key;
@@ -226,12 +227,12 @@ double PointContacts::eased_contact_distance(const Lattice& lattice, std::int32_
   return now;
 }
 
-void PointContacts::add_forces(Lattice& lattice, double dt) const {
-  add_forces_of(between_, lattice, dt);
-  add_forces_of(within_, lattice, dt);
+void PointContacts::add_forces(Lattice& lattice) const {
+  add_forces_of(between_, lattice);
+  add_forces_of(within_, lattice);
 }
 
-void PointContacts::add_forces_of(const Pairs& pairs, Lattice& lattice, double dt) const {
+void PointContacts::add_forces_of(const Pairs& pairs, Lattice& lattice) const {
   for (const Pair& pair : pairs) {
     const PointMotion& a = lattice.motion[pair.a];
     const PointMotion& b = lattice.motion[pair.b];
@@ -240,14 +241,11 @@ void PointContacts::add_forces_of(const Pairs& pairs, Lattice& lattice, double d
     if (squared >= pair.contact_distance * pair.contact_distance || squared == 0.0) continue;
     const double distance = std::sqrt(squared);
     const Vec3 normal = d / distance;
-    const Vec3 w = b.velocity - a.velocity;
-    const double rate = w.dot(normal);
+    const double rate = (b.velocity - a.velocity).dot(normal);
     const double push =
         penalty_force(pair.law, pair.reduced_mass, pair.contact_distance - distance, rate);
-    const Vec3 on_b = push * normal + friction_force(pair.law.friction, push, pair.reduced_mass,
-                                                     w - rate * normal, dt);
-    lattice.force[pair.b] += on_b;
-    lattice.force[pair.a] -= on_b;
+    lattice.force[pair.b] += push * normal;
+    lattice.force[pair.a] -= push * normal;
     lattice.touched[pair.a] = lattice.touched[pair.b] = 1;
   }
 }

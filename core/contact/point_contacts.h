@@ -10,7 +10,9 @@
 namespace limber {
 
 // Point-point penalty collision within and between objects (paper, section 5.1). Two points repel
-// when nearer than the sum of their contact radii; points joined by an unbroken edge do not.
+// when nearer than the sum of their contact radii; points joined by an unbroken edge do not. The
+// force is along the line between them: friction across it, between points a contact distance apart,
+// would be a couple out of nothing (4 % of the angular momentum of two colliding blocks, measured).
 //
 // Two lists keep the substeps cheap. Pairs of different pieces are found with a uniform grid over
 // the points that lie in another piece's bounding box, and listed anew when something has moved half
@@ -23,8 +25,8 @@ class PointContacts {
   void refresh(const Lattice& lattice, const Components& pieces, bool topology_changed,
                bool carried_changed);
 
-  // Adds the forces of all listed pairs to lattice.force. dt, s: bounds friction.
-  void add_forces(Lattice& lattice, double dt) const;
+  // Adds the forces of all listed pairs to lattice.force.
+  void add_forces(Lattice& lattice) const;
 
   std::size_t size() const { return between_.size() + within_.size(); }
 
@@ -56,7 +58,7 @@ class PointContacts {
   Pair make_pair(const Lattice& lattice, std::int32_t p, std::int32_t q) const;
   double eased_contact_distance(const Lattice& lattice, std::int32_t p, std::int32_t q,
                                 double contact_distance) const;
-  void add_forces_of(const Pairs& pairs, Lattice& lattice, double dt) const;
+  void add_forces_of(const Pairs& pairs, Lattice& lattice) const;
 
   Pairs between_, within_;
   Pairs old_between_, old_within_;

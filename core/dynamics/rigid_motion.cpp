@@ -14,9 +14,9 @@ Vec3 RigidMotion::velocity_at(const Vec3& position) const {
   return velocity + angular_velocity.cross(position - centre);
 }
 
-Vec3 angular_velocity_of(const Mat3& inertia, const Vec3& angular_momentum) {
+Vec3 angular_velocity_of(const Mat3& inertia, const Vec3& angular_momentum, double least_share) {
   const Eigen::SelfAdjointEigenSolver<Mat3> principal(inertia);
-  const double smallest = 1e-12 * principal.eigenvalues()[2];
+  const double smallest = least_share * principal.eigenvalues()[2];
   Vec3 omega = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     const double moment = principal.eigenvalues()[axis];

@@ -31,8 +31,9 @@ struct RigidMotion {
 RigidMotion rigid_motion(std::span<const PointMotion> motion, std::span<const double> mass,
                          std::span<const std::int32_t> of);
 
-// I^-1 L with eigenvalues below 1e-12 of the largest treated as zero.
-Vec3 angular_velocity_of(const Mat3& inertia, const Vec3& angular_momentum);
+// I^-1 L; moments below `least_share` of the largest count as none, and carry no spin.
+Vec3 angular_velocity_of(const Mat3& inertia, const Vec3& angular_momentum,
+                         double least_share = 1e-12);
 
 // Kinetic energy of the same points, J.
 double kinetic_energy(std::span<const PointMotion> motion, std::span<const double> mass,

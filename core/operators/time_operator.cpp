@@ -47,7 +47,7 @@ StepReport TimeOperator::advance(int substeps, double dt, const Vec3& gravity_m_
     if (n % kContactRefreshInterval == 0) refresh_contacts();
     apply_gravity(gravity_m_s2);
     apply_springs();
-    contacts_.add_forces(lattice_, dt);
+    contacts_.add_forces(lattice_);
     if (coupling) coupling->add_forces(lattice_, dt);
     integrate(dt);
     if (coupling) coupling->advance(lattice_, dt);

@@ -23,8 +23,8 @@ TEST(BoxPenetration, InsideIsTheWayThroughTheNearestSide) {
 
 TEST(BoxPenetration, OutsideIsTheDistanceToSideEdgeAndCorner) {
   EXPECT_NEAR(box_penetration(kHalf, {0.7, 0.0, 0.0}).depth, -0.2, 1e-15);
-  EXPECT_NEAR(box_penetration(kHalf, {0.8, 1.4, 0.0}).depth, -0.5, 1e-15);     // 3 4 5
-  EXPECT_NEAR(box_penetration(kHalf, {1.5, 3.0, 3.5}).depth, -3.0, 1e-14);     // 1 2 2 3
+  EXPECT_NEAR(box_penetration(kHalf, {0.8, 1.4, 0.0}).depth, -0.5, 1e-15);  // 3 4 5
+  EXPECT_NEAR(box_penetration(kHalf, {1.5, 3.0, 3.5}).depth, -3.0, 1e-14);  // 1 2 2 3
   EXPECT_LT((box_penetration(kHalf, {0.8, 1.4, 0.0}).normal - Vec3(0.6, 0.8, 0.0)).norm(), 1e-14);
 }
 

@@ -30,7 +30,7 @@ CoSimulationSettings sensitive() {
 struct Tick {
   double time = 0.0;  // s, at its end
   bool flexible = false;
-  Vec3 velocity;  // m/s, at its end
+  Vec3 velocity;        // m/s, at its end
   double low = 0.0;     // m, lowest point
   double centre = 0.0;  // m, height
   double energy = 0.0;  // J
@@ -93,8 +93,7 @@ TEST(DroppedBrick, HasTheVelocityOfFreeFallWhenItBecomesALattice) {
   const double speed = kGravity * thaw->time;
   EXPECT_NEAR(thaw->books.kinetic_before_J, 0.5 * kBrick.mass * speed * speed,
               by_precision(1e-4, 1e-9));
-  EXPECT_NEAR(thaw->books.kinetic_after_J, thaw->books.kinetic_before_J,
-              by_precision(1e-4, 1e-9));
+  EXPECT_NEAR(thaw->books.kinetic_after_J, thaw->books.kinetic_before_J, by_precision(1e-4, 1e-9));
 }
 
 TEST(DroppedBrick, GainsNoEnergy) {

@@ -13,7 +13,7 @@ namespace limber::bullet::test {
 namespace {
 
 const Block kBar{.cells = {4, 2, 1}, .mass = 2.0, .modulus = 1e8};
-const Vec3 kThrow(2.0, 3.0, -1.0);                        // m/s
+const Vec3 kThrow(2.0, 3.0, -1.0);                          // m/s
 const Vec3 kSpin = 8.0 * Vec3(1.0, 1.0, 1.0).normalized();  // rad/s, no principal axis
 
 PhysicalModel thrown_bar() { return make_block(kBar, {0.0, 5.0, 0.0}, kThrow, kSpin); }

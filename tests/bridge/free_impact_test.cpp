@@ -8,8 +8,8 @@
 #include "tests/bridge/substep_reference.h"
 #include "tests/bridge/world.h"
 
-// A lattice of 8 kg hits a free box off its centre at 10 m/s. Momentum alone would not do: a box held
-// still for a tick keeps it exact and gains twenty times the energy.
+// A lattice of 8 kg hits a free box off its centre at 10 m/s. Momentum alone would not do: a box
+// held still for a tick keeps it exact and gains twenty times the energy.
 
 namespace limber::bullet::test {
 namespace {
@@ -106,7 +106,8 @@ TEST_P(FreeImpact, DoesNotDependOnTheTick) {
   EXPECT_LT((coarse.lattice.velocity() - fine.lattice.velocity()).norm(), tolerance * kSpeed);
 }
 
-// Bullet adds a tick of gravity to the box by itself: it must have fallen neither twice nor not at all.
+// Bullet adds a tick of gravity to the box by itself: it must have fallen neither twice nor not at
+// all.
 TEST_P(FreeImpact, UnderGravityGainsItsImpulseAndNothingElse) {
   Impact start(GetParam(), 0.0);
   const Sums before = sums_of(start.model);

@@ -191,7 +191,8 @@ void expect_kept(PhysicalModel model, Random& random) {
 
 TEST(HandOver, OfTwoPointsKeepsMomentumAndAngularMomentum) {
   Random random(5);
-  for (int run = 0; run < kRuns; ++run) expect_kept(skeleton({Vec3::Zero(), Vec3::UnitX()}), random);
+  for (int run = 0; run < kRuns; ++run)
+    expect_kept(skeleton({Vec3::Zero(), Vec3::UnitX()}), random);
 }
 
 TEST(HandOver, OfAStraightRopeKeepsMomentumAndAngularMomentum) {

@@ -14,7 +14,8 @@ namespace {
 
 ShadowBody moving_shadow(World& world) {
   btRigidBody& body = world.add_box({0.1, 0.2, 0.3}, 3.0, {1.0, 2.0, 3.0});
-  body.getWorldTransform().setRotation(btQuaternion(btVector3(1, 2, 3).normalized(), btScalar(0.7)));
+  body.getWorldTransform().setRotation(
+      btQuaternion(btVector3(1, 2, 3).normalized(), btScalar(0.7)));
   body.setLinearVelocity(btVector3(1, -2, 3));
   body.setAngularVelocity(btVector3(btScalar(0.5), 2, -1));
   return make_shadow(body);
@@ -121,7 +122,8 @@ TEST(Turned, TurnsAboutAnAxisOfTheWorld) {
   const Eigen::Quaterniond q(Eigen::AngleAxisd(1.1, Vec3(1.0, 2.0, 3.0).normalized()));
   const Vec3 omega(0.3, -2.0, 1.0), arm(0.4, 0.5, -0.6);
   constexpr double kStep = 1e-6;
-  const Vec3 numeric = (turned(q, omega, kStep) * arm - turned(q, omega, -kStep) * arm) / (2.0 * kStep);
+  const Vec3 numeric =
+      (turned(q, omega, kStep) * arm - turned(q, omega, -kStep) * arm) / (2.0 * kStep);
   EXPECT_LT((numeric - omega.cross(q * arm)).norm(), 1e-9);
 }
 
@@ -134,7 +136,8 @@ TEST(RotateFreely, LetsASymmetricTopPrecessInClosedForm) {
   constexpr double kSeconds = 0.5;
   for (int tick = 0; tick < 30; ++tick) rotate_freely(q, omega, moments, kSeconds / 30);
   const Vec3 momentum = moments.cwiseProduct(start);
-  // Body axis 3 about L, and the body about its axis by omega_3 (1 - I_3 / I_1) ... seen from there.
+  // Body axis 3 about L, and the body about its axis by omega_3 (1 - I_3 / I_1) ... seen from
+  // there.
   const double precession = momentum.norm() / moments.x();
   const double own_spin = start.z() - momentum.z() / moments.x();
   const Eigen::Quaterniond exact =

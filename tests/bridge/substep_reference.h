@@ -11,9 +11,9 @@
 namespace limber::bullet::test {
 
 // A lattice among Bullet's boxes with nothing of the bridge in it: in every substep the lattice is
-// integrated against the boxes' present poses, the opposite impulses go to the boxes, and Bullet takes
-// a step of the same length, in which it solves all of its own contacts. The penalty law is the
-// library's; the geometry and the bookkeeping are not.
+// integrated against the boxes' present poses, the opposite impulses go to the boxes, and Bullet
+// takes a step of the same length, in which it solves all of its own contacts. The penalty law is
+// the library's; the geometry and the bookkeeping are not.
 class SubstepReference : public SubstepCoupling {
  public:
   SubstepReference(World& world, const PhysicalModel& model) : world_(world) {
@@ -56,8 +56,8 @@ class SubstepReference : public SubstepCoupling {
     const double separation = slip.dot(normal);
     const PenaltyContact law = law_with(lattice, body);
     const double press = penalty_force(law, reduced, depth, separation);
-    const Vec3 force = press * normal + friction_force(law.friction, press, reduced,
-                                                       slip - separation * normal, dt);
+    const Vec3 force = press * normal +
+                       friction_force(law.friction, press, reduced, slip - separation * normal, dt);
     lattice.force[p] += force;
     body.applyImpulse(to_bullet(Vec3(-force * dt)), to_bullet(arm));
   }

@@ -24,7 +24,7 @@ TEST(ImpactStrain, OfALightPartnerGoesWithTheRootOfItsMass) {
   EXPECT_DOUBLE_EQ(impact_strain(kPlate, 3.0, 0.5), 0.003 * std::sqrt(0.5));
 }
 
-TEST(ImpactStrain, OfReceedingBodiesIsNone) {
+TEST(ImpactStrain, OfRecedingBodiesIsNone) {
   EXPECT_EQ(impact_strain(kPlate, 0.0, kUnbreakable), 0.0);
   EXPECT_EQ(impact_strain(kPlate, -3.0, kUnbreakable), 0.0);
 }
@@ -68,18 +68,36 @@ TEST(VibrationStrain, IsSpeedOverWaveSpeed) {
 
 // The same wobble of 5 cm/s is 2.5 % of strain in the jelly and 0.005 % in the plate.
 TEST(Calm, IsTheStiffOneAndNotTheSoftOne) {
-  EXPECT_FALSE(calm(kJelly, {}, 0.0, 0.05));
-  EXPECT_TRUE(calm(kPlate, {}, 0.0, 0.05));
+  EXPECT_FALSE(calm(kJelly, {}, {.rms_vibration = 0.05}));
+  EXPECT_TRUE(calm(kPlate, {}, {.rms_vibration = 0.05}));
 }
 
 TEST(Calm, NeedsAVibrationBelowHalfOfWhatMakesFlexible) {
-  EXPECT_TRUE(calm(kJelly, {}, 0.0, 0.00999));
-  EXPECT_FALSE(calm(kJelly, {}, 0.0, 0.01001));
+  EXPECT_TRUE(calm(kJelly, {}, {.rms_vibration = 0.00999}));
+  EXPECT_FALSE(calm(kJelly, {}, {.rms_vibration = 0.01001}));
 }
 
-TEST(Calm, NeedsALoadBelowHalfOfTheStrength) {
-  EXPECT_TRUE(calm(kPlate, {}, 0.49, 0.0));
-  EXPECT_FALSE(calm(kPlate, {}, 0.51, 0.0));
+TEST(Calm, NeedsALoadThatIsLowOrSteady) {
+  EXPECT_TRUE(calm(kPlate, {}, {.peak_load = 0.49, .peak_load_before = 0.9}));
+  EXPECT_FALSE(calm(kPlate, {}, {.peak_load = 0.51, .peak_load_before = 0.9}));
+  EXPECT_TRUE(calm(kPlate, {}, {.peak_load = 0.8, .peak_load_before = 0.84}));
+  EXPECT_FALSE(calm(kPlate, {}, {.peak_load = 0.8, .peak_load_before = 0.74}));
+}
+
+// 2 L / c of 0.4 m of jelly is 0.4 s: 24 ticks; of the plate less than a millisecond.
+TEST(CalmTicks, LastAPeriodOfTheSlowestVibration) {
+  EXPECT_EQ(calm_ticks_needed(kJelly, {}, 0.399, 1.0 / 60.0, true), 24);
+  EXPECT_EQ(calm_ticks_needed(kPlate, {}, 0.4, 1.0 / 60.0, true), 3);
+  EXPECT_EQ(calm_ticks_needed(kPlate, {}, 0.4, 1.0 / 60.0, false), 1);
+}
+
+// One step of a first-order filter over its own time constant covers 1 - 1/e of the way, however
+// many steps it is divided into.
+TEST(AveragedLoad, ForgetsExponentially) {
+  EXPECT_NEAR(averaged_load(2.0, 5.0, 0.1, 0.1), 5.0 - 3.0 * std::exp(-1.0), 1e-14);
+  double average = 2.0;
+  for (int i = 0; i < 10; ++i) average = averaged_load(average, 5.0, 0.01, 0.1);
+  EXPECT_NEAR(average, 5.0 - 3.0 * std::exp(-1.0), 1e-14);
 }
 
 // The same in a world: both fall freely and wobble at 5 cm/s.

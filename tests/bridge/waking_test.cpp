@@ -39,15 +39,36 @@ TEST(SleepingBox, IsWokenAndKnockedOver) {
   EXPECT_LT(box.getWorldTransform().getBasis()[1][1], 0.5);  // leans by more than 60 degrees
 }
 
-// 5 g that arrive at 1 cm/s: 5e-5 N s, and 0.05 N of weight.
-TEST(SleepingStack, OfFiveWokenGentlyStaysBelowAMillimetreASecond) {
-  World world;
+// A stack of five, asleep; its boxes from the bottom.
+std::vector<btRigidBody*> sleeping_stack(World& world) {
   world.add_ground();
+  // Bullet's default: small overlaps are mended with velocity, which lets the stack settle tighter.
+  world->getSolverInfo().m_splitImpulsePenetrationThreshold = btScalar(-0.04);
   std::vector<btRigidBody*> boxes;
   for (int i = 0; i < 5; ++i) {
     boxes.push_back(&world.add_box(Vec3::Constant(0.2), 2.0, {0.0, 0.2 + 0.4 * i, 0.0}));
   }
   run_until_asleep(world);
+  return boxes;
+}
+
+// What Bullet does to the stack when a game wakes it: the measure for the next test.
+double fastest_when_woken_by_hand() {
+  World world;
+  const auto boxes = sleeping_stack(world);
+  for (btRigidBody* box : boxes) box->activate(true);
+  double most = 0.0;
+  for (int tick = 0; tick < 60; ++tick) {
+    world.step(kTick);
+    most = std::max(most, fastest(boxes));
+  }
+  return most;
+}
+
+// 5 g that arrive at 1 cm/s: 5e-5 N s, and 0.05 N of weight.
+TEST(SleepingStack, OfFiveWokenGentlyStaysBelowAMillimetreASecond) {
+  World world;
+  const auto boxes = sleeping_stack(world);
   const Block feather{.cells = {2, 2, 2}, .spacing = 0.05, .mass = 0.005, .modulus = 1e4};
   const double top = boxes[4]->getWorldTransform().getOrigin().y() + 0.2;
   CoSimulation simulation(*world, settings_for(Representation::kAlwaysFlexible));
@@ -61,8 +82,7 @@ TEST(SleepingStack, OfFiveWokenGentlyStaysBelowAMillimetreASecond) {
   }
   EXPECT_FALSE(simulation.failure());
   EXPECT_TRUE(woken);
-  RecordProperty("fastest_m_s", testing::PrintToString(most));
-  EXPECT_LT(most, 0.001);
+  EXPECT_LT(most, 0.001) << "woken by hand: " << fastest_when_woken_by_hand();
 }
 
 // A lattice that passes by wakes nobody.

@@ -48,8 +48,8 @@ class World {
   btRigidBody& add(std::unique_ptr<btCollisionShape> shape, double mass, const Vec3& centre) {
     btVector3 inertia(0, 0, 0);
     if (mass > 0.0) shape->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
-    btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr,
-                                                  shape.get(), inertia);
+    btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr, shape.get(),
+                                                  inertia);
     info.m_startWorldTransform.setOrigin(to_bullet(centre));
     shapes_.push_back(std::move(shape));
     bodies_.push_back(std::make_unique<btRigidBody>(info));
@@ -62,9 +62,7 @@ class World {
   }
 
   // A wide static box with its top at y = 0.
-  btRigidBody& add_ground() {
-    return add_box({10.0, 0.5, 10.0}, 0.0, {0.0, -0.5, 0.0});
-  }
+  btRigidBody& add_ground() { return add_box({10.0, 0.5, 10.0}, 0.0, {0.0, -0.5, 0.0}); }
 
   void step(double tick) {
     world_.stepSimulation(static_cast<btScalar>(tick), 1, static_cast<btScalar>(tick));

@@ -139,10 +139,19 @@ TEST(Lattice, ContactRadiusIsLessThanHalfOfThePointsShortestEdge) {
   EXPECT_DOUBLE_EQ(lattice.contact_radius[2], 0.45 * 0.25);
 }
 
-// Squared contact frequency: a tenth of k / m, here 100 / 1.
+// The stated share of k / m = 1e8 N/m / 1 kg, squared frequency.
 TEST(Lattice, ContactFrequencyFollowsTheSprings) {
-  const Lattice lattice = test::lattice_of({test::chain({.points = 5})});
-  EXPECT_NEAR(lattice.objects[0].contact_frequency, std::sqrt(10.0), 1e-14);
+  const Lattice lattice = test::lattice_of({test::chain({.points = 5, .stiffness = 1e8})});
+  EXPECT_NEAR(lattice.objects[0].contact_frequency, std::sqrt(kContactStiffnessShare * 1e8), 1e-9);
+}
+
+// But a column of five points of mass m, 1 m apart, must be able to stand on one contact: under
+// four metres of its own weight, 4 m g, the contact of stiffness omega^2 m gives way by 4 g /
+// omega^2.
+TEST(Lattice, ContactOfASoftObjectBearsItsWeight) {
+  const Lattice lattice = test::lattice_of({test::chain({.points = 5, .stiffness = 1e-3})});
+  const double omega = lattice.objects[0].contact_frequency;
+  EXPECT_NEAR(4.0 * kStandardGravity / (omega * omega), kContactSinkShare * 1.0, 1e-12);
 }
 
 TEST(Lattice, ElasticEnergyCountsEveryUnbrokenSpringOnce) {
