@@ -72,6 +72,7 @@ class CoSimulation::Impl : public TickHooks {
   void thaw_what_will_be_hit(double dt);
   void thaw_what_lattices_hit(double dt);
   void step_lattices(double dt);
+  [[noreturn]] void refuse_step(double substeps) const;
   void fly_free_proxies(double dt);
   void split_broken_pieces();
   void freeze_calm_pieces(double dt);
@@ -90,7 +91,8 @@ class CoSimulation::Impl : public TickHooks {
   void set_role(const Piece& piece, PointRole role);
   std::vector<Piece*> flexible_pieces() const;
   std::vector<std::vector<std::int32_t>> connected_groups(const Piece& piece);
-  bool becomes_debris(std::span<const std::int32_t> points) const;
+  bool becomes_debris(std::size_t object, std::span<const std::int32_t> points) const;
+  void turn_to_debris(std::span<const std::int32_t> points);
   Piece& add_piece(std::size_t object, std::vector<std::int32_t> points);
   void judge_impulse(Piece& piece, double dt);
   Calmness look_at(const Piece& piece) const;
@@ -294,6 +296,16 @@ void CoSimulation::Impl::refresh_roles(const std::vector<Piece*>& carried) {
   roles_stale_ = false;
 }
 
+void CoSimulation::Impl::refuse_step(double substeps) const {
+  const auto stiffest = std::min_element(
+      lattice_.objects.begin(), lattice_.objects.end(),
+      [](const auto& a, const auto& b) { return a.largest_step < b.largest_step; });
+  throw SimulationError({stiffest->authored.name,
+                         "a tick would need " + std::to_string(std::llround(substeps)) + " substeps",
+                         "soften the material, coarsen the lattice or raise most_substeps (" +
+                             std::to_string(settings_.most_substeps) + ")"});
+}
+
 void CoSimulation::Impl::step_lattices(double dt) {
   const std::vector<Piece*> flexible = flexible_pieces();
   if (flexible.empty()) return;
@@ -321,15 +333,8 @@ void CoSimulation::Impl::step_lattices(double dt) {
   }
   contacts_.begin_tick(world_, lattice_, bodies, carried_views);
 
-  const double largest = time_operator_.largest_step() * settings_.step_scale;
-  const double wanted = std::ceil(dt / largest);
-  if (wanted > settings_.most_substeps) {
-    const LatticeObject& object = lattice_.objects[flexible.front()->object];
-    throw SimulationError({object.authored.name,
-                           "a tick would need " + std::to_string(wanted) + " substeps",
-                           "soften the material, coarsen the lattice or raise most_substeps (" +
-                               std::to_string(settings_.most_substeps) + ")"});
-  }
+  const double wanted = std::ceil(dt / (time_operator_.largest_step() * settings_.step_scale));
+  if (wanted > settings_.most_substeps) refuse_step(wanted);
   const int substeps = std::max(1, static_cast<int>(wanted));
   const StepReport report = time_operator_.advance(substeps, dt / substeps,
                                                    from_bullet(world_.getGravity()), &contacts_);
@@ -391,8 +396,34 @@ void CoSimulation::Impl::fly_free_proxies(double dt) {
   }
 }
 
-bool CoSimulation::Impl::becomes_debris(std::span<const std::int32_t> points) const {
-  return points.size() == 1;
+// Single points, and in an object made of cells what holds no valid cell any more: crumbs of two or
+// three points on a few bonds, which have no volume and no inertia about a line.
+bool CoSimulation::Impl::becomes_debris(std::size_t object,
+                                        std::span<const std::int32_t> points) const {
+  if (points.size() == 1) return true;
+  if (lattice_.objects[object].cells.size() == 0) return false;
+  return std::none_of(points.begin(), points.end(), [&](std::int32_t p) {
+    const auto edges = lattice_.point_edges[p];
+    return std::any_of(edges.begin(), edges.end(), [&](std::int32_t e) {
+      const auto cells = lattice_.topology.edge_cells[e];
+      return std::any_of(cells.begin(), cells.end(),
+                         [&](std::int32_t c) { return lattice_.breaking.cell_valid[c] != 0; });
+    });
+  });
+}
+
+// P and L stay: the points go on with the velocities they have. Their bonds break.
+void CoSimulation::Impl::turn_to_debris(std::span<const std::int32_t> points) {
+  std::vector<std::int32_t> bonds;
+  for (std::int32_t p : points) {
+    for (std::int32_t e : lattice_.point_edges[p]) {
+      if (!lattice_.breaking.edge_broken[e]) bonds.push_back(e);
+    }
+    lattice_.role[p] = PointRole::kIdle;
+    debris_.add(p);
+  }
+  counters_.broken_edges +=
+      break_edges(lattice_.topology, lattice_.breaking, bonds).broken_edges.size();
 }
 
 std::vector<std::vector<std::int32_t>> CoSimulation::Impl::connected_groups(const Piece& piece) {
@@ -428,9 +459,8 @@ void CoSimulation::Impl::split_broken_pieces() {
     const bool touched = piece->touched;
     piece->points.clear();
     for (std::vector<std::int32_t>& points : groups) {
-      if (becomes_debris(points)) {
-        lattice_.role[points[0]] = PointRole::kIdle;
-        debris_.add(points[0]);
+      if (becomes_debris(piece->object, points)) {
+        turn_to_debris(points);
       } else {
         add_piece(piece->object, std::move(points)).touched = touched;
       }
@@ -517,9 +547,8 @@ std::size_t CoSimulation::Impl::add(PhysicalModel model) {
   whole.object = object;
   whole.points = points_of_object(object);
   for (std::vector<std::int32_t>& points : connected_groups(whole)) {
-    if (becomes_debris(points)) {
-      lattice_.role[points[0]] = PointRole::kIdle;
-      debris_.add(points[0]);
+    if (becomes_debris(object, points)) {
+      turn_to_debris(points);
       continue;
     }
     Piece& piece = add_piece(object, std::move(points));

@@ -46,8 +46,7 @@ PenaltyContact law_between(const LatticeObject& object, const btCollisionObject&
   const ObjectAttributes& attributes = object.authored.object;
   PenaltyContact law;
   law.frequency = object.contact_frequency;
-  law.damping_ratio =
-      damping_ratio_of_restitution(attributes.restitution * body.getRestitution());
+  law.restitution = attributes.restitution * body.getRestitution();
   law.friction = attributes.friction * body.getFriction();
   return law;
 }

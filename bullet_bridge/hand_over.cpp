@@ -37,16 +37,13 @@ void note_defects(HandOver& books, const RigidMotion& lattice_side, const RigidM
                scale.angular_momentum);
 }
 
-// A moment of inertia below this share of the largest cannot take up a body's spin: points 1e-4 of the
-// piece's length off its axis would have to run as fast as its ends.
-constexpr double kLeastSpinningShare = 1e-8;
-
-// Adds the rigid motion that the points lack to the body's P and L.
+// Adds the rigid motion that the points lack to the body's P and L. Spin about a line of points stays
+// out: a moment that had to be raised for Bullet would give it back many times faster.
 void give_motion(Lattice& lattice, std::span<const std::int32_t> points, const RigidMotion& body) {
   const RigidMotion now = rigid_motion(lattice.motion, lattice.mass, points);
   const Vec3 dv = (body.momentum() - now.momentum()) / now.mass;
   const Vec3 domega = angular_velocity_of(
-      now.inertia, body.angular_momentum - now.angular_momentum, kLeastSpinningShare);
+      now.inertia, body.angular_momentum - now.angular_momentum, kSmallestMomentShare);
   for (std::int32_t p : points) {
     PointMotion& point = lattice.motion[p];
     point.velocity += dv + domega.cross(point.position - now.centre);

@@ -93,13 +93,15 @@ ProxyFrame proxy_frame(const RigidMotion& motion) {
 
 RigidProxy::RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
                        std::span<const std::int32_t> points)
-    : world_(world) {
+    : world_(world), written_basis_(btMatrix3x3::getIdentity()) {
+  written_basis_[0][0] = 2;  // no rotation: nothing was written yet
   const ProxyFrame frame = proxy_frame(rigid_motion(lattice.motion, lattice.mass, points));
   const Mat3 to_local = frame.orientation.toRotationMatrix().transpose();
   for (std::int32_t p : points) {
     local_.push_back(to_local * (lattice.motion[p].position - frame.centre));
   }
   shape_ = fit_proxy_shape(shape_items(lattice, points, frame));
+  mass_ = frame.mass;
   moments_ = frame.moments;
   regularised_ = frame.regularised;
 
@@ -139,11 +141,10 @@ RigidMotion RigidProxy::motion() const {
   RigidMotion motion;
   const Mat3 rotation =
       from_bullet(body_->getWorldTransform().getRotation()).toRotationMatrix();
-  const Vec3 inverse = from_bullet(body_->getInvInertiaDiagLocal());
-  motion.mass = 1.0 / body_->getInvMass();
+  motion.mass = mass_;
   motion.centre = from_bullet(body_->getWorldTransform().getOrigin());
   motion.velocity = from_bullet(body_->getLinearVelocity());
-  motion.inertia = rotation * inverse.cwiseInverse().asDiagonal() * rotation.transpose();
+  motion.inertia = rotation * moments_.asDiagonal() * rotation.transpose();
   motion.angular_velocity = from_bullet(body_->getAngularVelocity());
   motion.angular_momentum = motion.inertia * motion.angular_velocity;
   return motion;
@@ -154,6 +155,11 @@ void RigidProxy::remember() {
   start_position_ = from_bullet(body_->getWorldTransform().getOrigin());
   start_orientation_ = from_bullet(body_->getWorldTransform().getRotation());
   start_angular_velocity_ = from_bullet(body_->getAngularVelocity());
+  const bool as_written = body_->getWorldTransform().getBasis() == written_basis_ &&
+                          body_->getAngularVelocity() == written_angular_velocity_;
+  if (!as_written) return;
+  start_orientation_ = flown_orientation_;
+  start_angular_velocity_ = flown_angular_velocity_;
 }
 
 void RigidProxy::fly(double tick) {
@@ -167,6 +173,10 @@ void RigidProxy::fly(double tick) {
   body_->setInterpolationWorldTransform(pose);
   body_->setAngularVelocity(to_bullet(omega));
   body_->updateInertiaTensor();
+  flown_orientation_ = orientation;
+  flown_angular_velocity_ = omega;
+  written_basis_ = pose.getBasis();
+  written_angular_velocity_ = body_->getAngularVelocity();
 }
 
 void rotate_freely(Eigen::Quaterniond& orientation, Vec3& omega, const Vec3& moments, double dt) {

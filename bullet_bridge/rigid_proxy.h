@@ -1,5 +1,7 @@
 #pragma once
 
+#include <LinearMath/btMatrix3x3.h>
+
 #include <Eigen/Geometry>
 #include <memory>
 #include <span>
@@ -50,12 +52,13 @@ class RigidProxy {
   // Was a moment of inertia raised for Bullet (kSmallestMomentShare)?
   bool regularised() const { return regularised_; }
 
-  // Momentum, angular momentum about its centre and energy as Bullet holds them.
+  // The body's motion as Bullet holds it, with the exact mass and moments (Bullet's may be floats).
   RigidMotion motion() const;
 
   // Free flight. Bullet's step x += v' dt falls g t dt / 2 too far and keeps omega where it should
   // keep L. remember() before the solver, fly() after the move: the path of constant acceleration
-  // x += (v + v') dt / 2, and the rotation of a free body.
+  // x += (v + v') dt / 2, and the rotation of a free body. The rotation goes on in double as long as
+  // nobody else changes the body.
   void remember();
   void fly(double tick);
 
@@ -66,12 +69,17 @@ class RigidProxy {
   std::vector<Vec3> local_;  // shape (points)
   ProxyShape shape_;
   std::unique_ptr<btRigidBody> body_;
+  double mass_ = 0.0;
   Vec3 moments_;
   bool regularised_ = false;
   Vec3 start_velocity_;
   Vec3 start_position_;
   Eigen::Quaterniond start_orientation_;
   Vec3 start_angular_velocity_;
+  Eigen::Quaterniond flown_orientation_;  // exact, of the last flight
+  Vec3 flown_angular_velocity_;
+  btMatrix3x3 written_basis_;  // what Bullet was given for them
+  btVector3 written_angular_velocity_;
 };
 
 // Rotation of a free rigid body over dt by midpoint steps that keep L to rounding.

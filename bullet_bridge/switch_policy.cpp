@@ -31,8 +31,9 @@ double vibration_strain(const PieceStrength& piece, double rms_speed) {
 
 int calm_ticks_needed(const PieceStrength& piece, const SwitchSettings& settings, double length_m,
                       double tick, bool touched) {
-  // A touch that was foreseen but did not come costs one tick, not the whole settling time.
-  const int settled = touched ? settings.calm_ticks : 1;
+  // A touch that was foreseen but does not come costs two ticks (it may come at the start of the
+  // second), not the whole settling time.
+  const int settled = touched ? settings.calm_ticks : 2;
   const double period = 2.0 * length_m / piece.wave_speed;
   return std::max(settled, static_cast<int>(std::ceil(period / tick)));
 }

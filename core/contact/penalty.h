@@ -7,44 +7,29 @@
 
 namespace limber {
 
-// The penalty law shared by point-point and point-body contact. Stiffness and damping follow from
-// masses: k = omega_c^2 m, c = 2 zeta omega_c m, with m the reduced mass of the pair, so that the
-// contact's own frequency is omega_c whatever the masses are.
+// The penalty law shared by point-point and point-body contact. The stiffness follows from masses,
+// k = omega_c^2 m with m the reduced mass of the pair, so that the contact's own frequency is omega_c
+// whatever the masses are.
 struct PenaltyContact {
-  double frequency = 0.0;      // omega_c, rad/s
-  double damping_ratio = 0.0;  // zeta
-  double friction = 0.0;       // Coulomb coefficient
+  double frequency = 0.0;    // omega_c, rad/s
+  double restitution = 0.0;  // e, 0..1
+  double friction = 0.0;     // Coulomb coefficient
 };
 
-// Restitution of a spring-dashpot contact that never pulls, for damping ratios below 1:
-// e = exp(-zeta / s (pi - atan2(2 zeta s, 1 - 2 zeta^2))), s = sqrt(1 - zeta^2)
-// (Schwager and Poeschel, Granular Matter 9, 2007).
-inline double restitution_of_damping_ratio(double zeta) {
-  const double s = std::sqrt(1.0 - zeta * zeta);
-  return std::exp(-zeta / s * (M_PI - std::atan2(2.0 * zeta * s, 1.0 - 2.0 * zeta * zeta)));
-}
+// A contact that gave nothing back would never push out what has come in: a restitution below this
+// counts as this (1 % of the energy).
+inline constexpr double kLeastRestitution = 0.1;
 
-// More damping than this (restitution 0.21) costs stable step and changes a contact little.
-inline constexpr double kLargestContactDamping = 0.7;
-
-// The inverse, by bisection (the restitution falls with the damping). A restitution below 0.21
-// counts as 0.21: what else a body loses in an impact its own springs and friction take.
-inline double damping_ratio_of_restitution(double restitution) {
-  double low = 0.0, high = kLargestContactDamping;
-  if (restitution <= restitution_of_damping_ratio(high)) return high;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (restitution_of_damping_ratio(middle) > restitution ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
-// Normal force, N, never adhesive: max(0, k depth - c separation_speed).
+// Normal force, N, never adhesive: k depth while the two approach, e^2 k depth while they separate
+// (Moore and Wilhelms, SIGGRAPH 1988). The contact gives back e^2 of the energy it took whatever the
+// mass behind the point is. A dashpot does not: it is made for the point's mass, and a body of a
+// thousand points bounces off it almost elastically.
 inline double penalty_force(const PenaltyContact& law, double reduced_mass, double depth,
                             double separation_speed) {
+  if (depth <= 0.0) return 0.0;
   const double k = law.frequency * law.frequency * reduced_mass;
-  const double c = 2.0 * law.damping_ratio * law.frequency * reduced_mass;
-  return std::max(0.0, k * depth - c * separation_speed);
+  const double e = std::max(law.restitution, kLeastRestitution);
+  return (separation_speed > 0.0 ? e * e : 1.0) * k * depth;
 }
 
 // Share of the tangential momentum that sticking friction removes in one substep. 1 would stop a

@@ -19,8 +19,7 @@ constexpr double kSkinShare = 2.0;
 PenaltyContact law_between(const LatticeObject& a, const LatticeObject& b) {
   PenaltyContact law;
   law.frequency = std::min(a.contact_frequency, b.contact_frequency);
-  law.damping_ratio = damping_ratio_of_restitution(a.authored.object.restitution *
-                                                   b.authored.object.restitution);
+  law.restitution = a.authored.object.restitution * b.authored.object.restitution;
   return law;
 }
 

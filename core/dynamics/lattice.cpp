@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/penalty.h"
 #include "core/dynamics/spring_force.h"
 #include "core/dynamics/stable_step.h"
 #include "core/model/validate.h"
@@ -117,18 +116,16 @@ double contact_frequency_of(const PhysicalModel& model) {
 }
 
 // Step of semi-implicit Euler with springs K, stiffness-proportional damping and one contact a
-// point: K <= K_springs + omega_c^2, C <= beta K_springs + 2 zeta_c omega_c (Weyl).
+// point: K <= K_springs + omega_c^2 (Weyl), C <= beta K_springs.
 double largest_step(const PhysicalModel& model, double contact_frequency) {
   const double omega_springs = highest_frequency(model).omega_max;
   double damping_time = 0.0;  // s, largest c / k
   for (const EdgeAttributes& e : model.edges) {
     if (e.stiffness > 0.0) damping_time = std::max(damping_time, e.damping / e.stiffness);
   }
-  const double zeta_contact = damping_ratio_of_restitution(model.object.restitution);
   const double squared = omega_springs * omega_springs + contact_frequency * contact_frequency;
   const double omega = std::sqrt(squared);
-  const double damping = damping_time * omega_springs * omega_springs +
-                         2.0 * zeta_contact * contact_frequency;  // 1/s
+  const double damping = damping_time * omega_springs * omega_springs;  // 1/s
   return kStepSafety * stable_step(omega, omega > 0.0 ? damping / (2.0 * omega) : 0.0);
 }
 

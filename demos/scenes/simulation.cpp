@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "bullet_bridge/stage.h"
 #include "core/operators/boundary_operator.h"
@@ -82,6 +83,7 @@ struct Simulation::State {
   double time = 0.0;
   double wall = 0.0;
   std::vector<TickSample> samples;
+  double fastest_piece = 0.0;  // m/s
   double fastest_piece_rel = 0.0;
   double highest_rise = -1e30;
   std::vector<Vec3> start_centre;                // of each object
@@ -147,12 +149,26 @@ struct Simulation::State {
   void watch(const bullet::PieceView& piece) {
     const RigidMotion& now = piece.motion;
     highest_rise = std::max(highest_rise, now.centre.y() - start_centre[piece.object].y());
+    fastest_piece = std::max(fastest_piece, now.velocity.norm());
     if (now.mass < kNotableShare * mass_of(piece.object)) return;
     const RigidMotion then = rigid_motion(start[piece.object], masses[piece.object], piece.points);
     const double fall = scene.gravity.dot(now.centre - then.centre);
     const double explained = then.velocity.squaredNorm() + 2.0 * std::max(0.0, fall);
     if (explained <= 0.0) return;
     fastest_piece_rel = std::max(fastest_piece_rel, std::sqrt(now.velocity.squaredNorm() / explained));
+  }
+
+  // Of free fall from the highest start of an object's centre to y = 0, m/s.
+  double impact_speed() const {
+    double fastest = 0.0;
+    for (std::size_t o = 0; o < start.size(); ++o) {
+      std::vector<std::int32_t> all(start[o].size());
+      std::iota(all.begin(), all.end(), 0);
+      const RigidMotion body = rigid_motion(start[o], masses[o], all);
+      const double fall = std::max(0.0, -2.0 * scene.gravity.y() * body.centre.y());
+      fastest = std::max(fastest, std::sqrt(body.velocity.squaredNorm() + fall));
+    }
+    return fastest;
   }
 
   void add_pieces(RunResult& result) const {
@@ -263,6 +279,8 @@ RunResult Simulation::result() const {
     result.needless = counters.needless;
   }
   state_->add_pieces(result);
+  result.fastest_piece_m_s = state_->fastest_piece;
+  result.impact_speed_m_s = state_->impact_speed();
   result.fastest_piece_rel = state_->fastest_piece_rel;
   result.highest_rise_m = state_->highest_rise;
   result.state_hash = limber.state_hash();

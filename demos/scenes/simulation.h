@@ -81,9 +81,10 @@ struct RunResult {
   std::vector<double> piece_masses;     // kg, descending, pieces with at least one edge
   double debris_mass = 0.0;             // kg, points without edges
   double total_mass = 0.0;              // kg
-  // The worst kinetic-plus-potential energy per mass of a fragment over what it had at the start, as
-  // a ratio of speeds: above 1 a fragment is faster than falling explains. Fragments over 0.5 % of
-  // the mass, and over all.
+  double fastest_piece_m_s = 0.0;   // of any piece with at least one edge, ever
+  double impact_speed_m_s = 0.0;    // of the object's centre, had it fallen freely to the floor
+  // Speed of a piece (over 0.5 % of the mass) over what falling from its own start to where it is
+  // explains, the worst: above 1 it got energy from other pieces, or out of nowhere.
   double fastest_piece_rel = 0.0;
   double highest_rise_m = 0.0;      // how far any piece's centre rose above its object's start; <= 0
   std::uint64_t state_hash = 0;

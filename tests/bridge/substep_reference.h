@@ -72,7 +72,7 @@ class SubstepReference : public SubstepCoupling {
   static PenaltyContact law_with(const Lattice& lattice, const btRigidBody& body) {
     const LatticeObject& object = lattice.objects[0];
     const double restitution = object.authored.object.restitution * body.getRestitution();
-    return {object.contact_frequency, damping_ratio_of_restitution(restitution),
+    return {object.contact_frequency, restitution,
             object.authored.object.friction * body.getFriction()};
   }
 

@@ -68,8 +68,8 @@ TEST(TeapotModel, IsValidAndInOnePiece) {
 }
 
 TEST(TeapotModel, HasThePointsAndSizeOfTheScene) {
-  EXPECT_GT(teapot().points.size(), 2000u);
-  EXPECT_LT(teapot().points.size(), 3000u);
+  EXPECT_GT(teapot().points.size(), 1500u);
+  EXPECT_LT(teapot().points.size(), 4000u);
   Vec3 low = Vec3::Constant(1.0), high = -low;
   for (const Vec3& p : teapot().geometry.points) {
     low = low.cwiseMin(p);

@@ -46,7 +46,7 @@ void simulate(Lattice& lattice, double seconds) {
   for (int n = 0; n * kStep < seconds; ++n) {
     contacts.refresh(lattice, pieces, n == 0, false);
     clear_forces(lattice);
-    contacts.add_forces(lattice, kStep);
+    contacts.add_forces(lattice);
     move(lattice, kStep);
   }
 }
@@ -60,19 +60,13 @@ Lattice approaching(double restitution, double friction, const Vec3& velocity) {
   return with_contact_frequency(test::lattice_of({runner, target}));
 }
 
-// Rebound of a contact that ends with its force, see penalty_test.cpp.
-double rebound_without_adhesion(double restitution) {
-  const double zeta = damping_ratio_of_restitution(restitution), s = std::sqrt(1.0 - zeta * zeta);
-  return std::exp(-zeta / s * (M_PI - std::atan2(2.0 * zeta * s, 1.0 - 2.0 * zeta * zeta)));
-}
-
 TEST(PointContacts, ReboundWithTheirRestitutionAndKeepTheMomentum) {
-  for (double e : {1.0, 0.5, 0.0}) {
+  for (double e : {1.0, 0.5, 0.2}) {
     Lattice lattice = approaching(e, 0.0, {2.0, 0.0, 0.0});
     const test::Totals before = test::totals(lattice);
-    simulate(lattice, 0.15);
+    simulate(lattice, 0.4);  // leaving takes 1 / e times as long as coming in
     const double separation = lattice.motion[2].velocity.x() - lattice.motion[0].velocity.x();
-    EXPECT_NEAR(separation, 2.0 * rebound_without_adhesion(e), 5e-3) << "restitution " << e;
+    EXPECT_NEAR(separation, 2.0 * e, 5e-3) << "restitution " << e;
     test::expect_same_momenta(before, test::totals(lattice), 1e-13);
   }
 }
@@ -85,24 +79,9 @@ TEST(PointContacts, ExchangeVelocitiesAsTheirMassesDemand) {
   EXPECT_NEAR(lattice.motion[2].velocity.x(), 1.0, 1e-3);
 }
 
-// Slipping throughout, the tangential impulse is mu times the normal one: with an elastic rebound
-// of m_red = 3/4 kg at 2 m/s, J_n = 3 N s and J_t = 0.1 * 3. The two points turn around each other
-// by a small angle meanwhile, hence the tolerance.
-TEST(PointContacts, SlipWithCoulombFriction) {
-  Lattice lattice = approaching(1.0, 0.1, {2.0, 0.0, 0.5});
-  const test::Totals before = test::totals(lattice);
-  simulate(lattice, 0.13);
-  const double normal = 1.0 * (2.0 - lattice.motion[0].velocity.x());
-  const double tangential = 1.0 * (0.5 - lattice.motion[0].velocity.z());
-  EXPECT_NEAR(normal, 3.0, 0.1);
-  EXPECT_NEAR(tangential / normal, 0.1, 0.05);
-  const Vec3 lost = test::totals(lattice).momentum - before.momentum;
-  EXPECT_LE(lost.norm(), 1e-13 * before.momentum_scale);
-}
-
-// Friction acts across the line between two points that are a contact distance apart: equal and
-// opposite forces alone would make a couple.
-TEST(PointContacts, FrictionKeepsTheAngularMomentum) {
+// Their force is along the line between them, whatever friction the objects have against the ground:
+// across it, a contact distance apart, it would be a couple.
+TEST(PointContacts, OfObliquelyMovingPointsKeepTheAngularMomentum) {
   Lattice lattice = approaching(1.0, 0.1, {2.0, 0.0, 0.5});
   const test::Totals before = test::totals(lattice);
   simulate(lattice, 0.13);
@@ -113,7 +92,7 @@ double push_on(const Lattice& lattice, std::size_t point) { return lattice.force
 
 void add_forces_anew(const PointContacts& contacts, Lattice& lattice) {
   clear_forces(lattice);
-  contacts.add_forces(lattice, kStep);
+  contacts.add_forces(lattice);
 }
 
 TEST(PointContacts, PushPointsApartByTheirOverlap) {
@@ -256,7 +235,7 @@ TEST(PointContacts, ListMissesNothingHoweverPointsFly) {
       contacts.refresh(listed, pieces, n == 0, false);
       clear_forces(listed);
       clear_forces(all);
-      contacts.add_forces(listed, dt);
+      contacts.add_forces(listed);
       add_forces_of_all_pairs(all);
       move(listed, dt);
       move(all, dt);
