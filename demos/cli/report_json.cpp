@@ -84,6 +84,7 @@ Json switching_counts(const RunResult& run) {
 Json plausibility(const RunResult& run) {
   return {{"pieces", count_pieces(run)},
           {"fastest_piece_m_s", run.fastest_piece_m_s},
+          {"fastest_chip_m_s", run.fastest_chip_m_s},
           {"impact_speed_m_s", run.impact_speed_m_s},
           {"fastest_piece_rel", run.fastest_piece_rel},
           {"highest_rise_m", run.highest_rise_m},

@@ -165,6 +165,8 @@ std::string outcome_section(const RunResult& flexible, const RunResult& switchin
   row("largest piece / mass", [](const RunResult& r) { return or_dash(largest_piece_rel(r, r)); });
   row("debris / mass", [](const RunResult& r) { return or_dash(debris_rel(r, r)); });
   row("fastest piece, m/s", [](const RunResult& r) { return significant(r.fastest_piece_m_s); });
+  row("fastest chip under 0.5 %, m/s",
+      [](const RunResult& r) { return significant(r.fastest_chip_m_s); });
   row("free fall to the floor, m/s",
       [](const RunResult& r) { return significant(r.impact_speed_m_s); });
   row("highest rise, m", [](const RunResult& r) { return significant(r.highest_rise_m); });

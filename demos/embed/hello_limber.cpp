@@ -11,9 +11,9 @@
 
 int main() {
   btStaticPlaneShape floor_shape(btVector3(0, 1, 0), 0);
-  btRigidBody floor({0, nullptr, &floor_shape});
+  btRigidBody floor(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &floor_shape));
   btBoxShape kerb_shape(btVector3(btScalar(0.05), btScalar(0.1), btScalar(0.3)));
-  btRigidBody kerb({0, nullptr, &kerb_shape});
+  btRigidBody kerb(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &kerb_shape));
   kerb.translate(btVector3(0, btScalar(0.1), 0));
 
   btDefaultCollisionConfiguration configuration;
@@ -33,8 +33,8 @@ int main() {
   clay.youngs_modulus = 1.5e10;  // Pa
   clay.strain_at_break = 1e-3;
   clay.damping_ratio = 0.2;
-  clay.internal_damping = 30;    // 1/s
-  clay.softening = 1000;         // modulus / 1000; the same impact speed breaks it
+  clay.internal_damping = 30;        // 1/s
+  clay.softening = 1000;             // modulus / 1000; the same impact speed breaks it
   limber.add(limber::with_material(  // Limber: 12 x 2 x 2 cells of 5 cm, 1 m above the floor
       limber::box_lattice({12, 2, 2}, {0.05, 0.05, 0.05}, {-0.3, 1, -0.05}, "beam"), "beam", clay));
 

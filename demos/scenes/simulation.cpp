@@ -18,7 +18,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Fragments below this share of the mass are not judged by their speed: a chip may be flicked.
+// Pieces below this share of the mass are chips: a shard that turns about an edge flicks them off
+// faster than it fell.
 constexpr double kNotableShare = 0.005;
 
 bullet::CoSimulationSettings settings_of(const RunOptions& options) {
@@ -84,6 +85,7 @@ struct Simulation::State {
   double wall = 0.0;
   std::vector<TickSample> samples;
   double fastest_piece = 0.0;  // m/s
+  double fastest_chip = 0.0;   // m/s
   double fastest_piece_rel = 0.0;
   double highest_rise = -1e30;
   std::vector<Vec3> start_centre;                // of each object
@@ -149,8 +151,10 @@ struct Simulation::State {
   void watch(const bullet::PieceView& piece) {
     const RigidMotion& now = piece.motion;
     highest_rise = std::max(highest_rise, now.centre.y() - start_centre[piece.object].y());
-    fastest_piece = std::max(fastest_piece, now.velocity.norm());
-    if (now.mass < kNotableShare * mass_of(piece.object)) return;
+    const bool notable = now.mass >= kNotableShare * mass_of(piece.object);
+    double& fastest = notable ? fastest_piece : fastest_chip;
+    fastest = std::max(fastest, now.velocity.norm());
+    if (!notable) return;
     const RigidMotion then = rigid_motion(start[piece.object], masses[piece.object], piece.points);
     const double fall = scene.gravity.dot(now.centre - then.centre);
     const double explained = then.velocity.squaredNorm() + 2.0 * std::max(0.0, fall);
@@ -280,6 +284,7 @@ RunResult Simulation::result() const {
   }
   state_->add_pieces(result);
   result.fastest_piece_m_s = state_->fastest_piece;
+  result.fastest_chip_m_s = state_->fastest_chip;
   result.impact_speed_m_s = state_->impact_speed();
   result.fastest_piece_rel = state_->fastest_piece_rel;
   result.highest_rise_m = state_->highest_rise;

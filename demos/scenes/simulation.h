@@ -81,7 +81,8 @@ struct RunResult {
   std::vector<double> piece_masses;     // kg, descending, pieces with at least one edge
   double debris_mass = 0.0;             // kg, points without edges
   double total_mass = 0.0;              // kg
-  double fastest_piece_m_s = 0.0;   // of any piece with at least one edge, ever
+  double fastest_piece_m_s = 0.0;   // of any piece over 0.5 % of its object's mass, ever
+  double fastest_chip_m_s = 0.0;    // of any smaller one with at least one edge
   double impact_speed_m_s = 0.0;    // of the object's centre, had it fallen freely to the floor
   // Speed of a piece (over 0.5 % of the mass) over what falling from its own start to where it is
   // explains, the worst: above 1 it got energy from other pieces, or out of nowhere.

@@ -165,6 +165,8 @@ constexpr double kSolid = 0.08 * kImpactSpeed;
 constexpr double kLight = 0.12 * kImpactSpeed;
 
 void expect_alike(const Outcome& got, const Outcome& reference, double velocity_tolerance) {
+  // 5 mm of overlap between solid boxes, in proportion for light ones (measured 0 to 6 mm).
+  const double box_depth_tolerance = 0.005 * velocity_tolerance / kSolid;
   const Deviation deviation = between(got, reference);
   EXPECT_LT(deviation.velocity, velocity_tolerance);
   EXPECT_LT(deviation.spin, 2.0 * velocity_tolerance);
@@ -172,7 +174,7 @@ void expect_alike(const Outcome& got, const Outcome& reference, double velocity_
   // A few per cent of what the impact brought (36 J).
   EXPECT_NEAR(got.energy, reference.energy, 0.05 * 0.5 * 8.0 * kImpactSpeed * kImpactSpeed);
   EXPECT_LT(got.lattice_depth, reference.lattice_depth + 0.002);
-  EXPECT_LT(got.box_depth, reference.box_depth + 0.005);
+  EXPECT_LT(got.box_depth, reference.box_depth + box_depth_tolerance);
 }
 
 TEST_P(StackImpact, IsThatOfATickAsShortAsTheSubstep) {
