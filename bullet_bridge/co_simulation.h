@@ -69,8 +69,8 @@ struct Counters {
 
 // Flexible, breakable objects in a game's own Bullet world.
 //
-// Attach it to any btDiscreteDynamicsWorld, add models, and step the world as before. An object is a
-// btRigidBody while nothing stresses it, a spring lattice while something does, and several rigid
+// Attach it to any btDiscreteDynamicsWorld, add models, and step the world as before. An object is
+// a btRigidBody while nothing stresses it, a spring lattice while something does, and several rigid
 // bodies after it broke.
 //
 // Contract. Limber owns the points of its objects and the proxies it adds; Bullet owns every other
@@ -96,8 +96,8 @@ class CoSimulation {
   // The object as it is now: positions, velocities, breaks. Can be edited, glued and added again.
   PhysicalModel model(std::size_t object) const;
 
-  // Why the simulation of the lattices stopped, if it did; ask after every stepSimulation(). (Bullet
-  // cannot be left by an exception in the middle of a step.)
+  // Why the simulation of the lattices stopped, if it did; ask after every stepSimulation().
+  // (Bullet cannot be left by an exception in the middle of a step.)
   const std::optional<Diagnostic>& failure() const;
 
   std::size_t object_count() const;

@@ -23,14 +23,14 @@ struct Penetration {
 struct ContactPart {
   enum class Kind { kBox, kSphere, kPlane, kConvex };
   Kind kind;
-  Vec3 half_extents;              // box, m
-  double radius = 0.0;            // sphere, m
-  Vec3 plane_normal;              // plane: n . x = offset
-  double plane_offset = 0.0;      // m
+  Vec3 half_extents;          // box, m
+  double radius = 0.0;        // sphere, m
+  Vec3 plane_normal;          // plane: n . x = offset
+  double plane_offset = 0.0;  // m
   const btConvexShape* convex = nullptr;
-  Vec3 position = Vec3::Zero();   // of the part in the frame of the whole shape, m
+  Vec3 position = Vec3::Zero();  // of the part in the frame of the whole shape, m
   Mat3 rotation = Mat3::Identity();
-  bool rotated = false;           // spares most parts a matrix product
+  bool rotated = false;  // spares most parts a matrix product
 
   Vec3 to_part_frame(const Vec3& point) const {
     if (!rotated) return point - position;

@@ -1,7 +1,7 @@
 #include "bullet_bridge/contact_solver.h"
 
-#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
@@ -135,8 +135,7 @@ void ContactSolver::list_candidates(const Lattice& lattice, double dt) {
       body_speed += body.angular_velocity.norm() * radius;
     }
     const double time = kListInterval * dt;
-    const double least_reach =
-        (2.0 * body_speed + kPushShare * fastest) * time + kListMargin;
+    const double least_reach = (2.0 * body_speed + kPushShare * fastest) * time + kListMargin;
     list_candidates_of(obstacle, lattice, least_reach, 2.0 * time);
   }
 }
@@ -151,10 +150,10 @@ void ContactSolver::list_candidates_of(Obstacle& obstacle, const Lattice& lattic
       const double depth = penetration(obstacle.parts[k], local).depth;
       if (depth < -reach) continue;
       const auto part = static_cast<std::int32_t>(k);
-      const auto known = std::lower_bound(
-          old.begin(), old.end(), std::pair(p, part), [](const Candidate& c, const auto& key) {
-            return before(c.point, c.part, key.first, key.second);
-          });
+      const auto known = std::lower_bound(old.begin(), old.end(), std::pair(p, part),
+                                          [](const Candidate& c, const auto& key) {
+                                            return before(c.point, c.part, key.first, key.second);
+                                          });
       const bool listed_before = known != old.end() && known->point == p && known->part == part;
       // A point that is found inside without having come in starts without force (a proxy that
       // thaws where its hull touches): the depth it has counts as surface until it has left.
@@ -180,13 +179,11 @@ void ContactSolver::push(Lattice& lattice, const Obstacle& obstacle, Candidate& 
   const double depth = inside.depth - candidate.offset;
   if (depth <= 0.0) return;
 
-  const Vec3 normal =
-      obstacle.at_rest ? inside.normal : Vec3(body.rotation * inside.normal);
+  const Vec3 normal = obstacle.at_rest ? inside.normal : Vec3(body.rotation * inside.normal);
   const double mass = lattice.mass[candidate.point];
   const double reduced_mass =
-      body.movable()
-          ? 1.0 / (1.0 / mass + body.inverse_effective_mass(point.position, normal))
-          : mass;
+      body.movable() ? 1.0 / (1.0 / mass + body.inverse_effective_mass(point.position, normal))
+                     : mass;
   const PenaltyContact& law = obstacle.laws[lattice.point_object[candidate.point]];
   const Vec3 slip = point.velocity - body.velocity_at(point.position);
   const double separation = slip.dot(normal);

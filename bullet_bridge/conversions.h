@@ -23,8 +23,8 @@ inline Eigen::Quaterniond from_bullet(const btQuaternion& q) {
 }
 
 inline btQuaternion to_bullet(const Eigen::Quaterniond& q) {
-  return {static_cast<btScalar>(q.x()), static_cast<btScalar>(q.y()),
-          static_cast<btScalar>(q.z()), static_cast<btScalar>(q.w())};
+  return {static_cast<btScalar>(q.x()), static_cast<btScalar>(q.y()), static_cast<btScalar>(q.z()),
+          static_cast<btScalar>(q.w())};
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -64,9 +64,9 @@ void Debris::step(btDiscreteDynamicsWorld& world, Lattice& lattice,
       arm = from_bullet(hit.m_hitPointWorld - body->getCenterOfMassPosition());
       ground = from_bullet(body->getVelocityInLocalPoint(to_bullet(arm)));
     }
-    const double friction = hit.m_collisionObject->getFriction() *
-                            lattice.objects[lattice.point_object[particle.point]]
-                                .authored.object.friction;
+    const double friction =
+        hit.m_collisionObject->getFriction() *
+        lattice.objects[lattice.point_object[particle.point]].authored.object.friction;
     const Vec3 after = ground + velocity_after_hit(velocity - ground, normal, friction);
     if (movable) {
       body->activate();

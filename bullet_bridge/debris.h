@@ -13,9 +13,9 @@ namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
 // Points that lost all their edges: ballistic particles at the tick rate, the same in every
-// representation. They fall on the world's bodies (not on Limber's own proxies, whose hulls they are
-// born in) by a ray along their path; a hit is inelastic with friction and gives a movable body the
-// momentum that the particle loses.
+// representation. They fall on the world's bodies (not on Limber's own proxies, whose hulls they
+// are born in) by a ray along their path; a hit is inelastic with friction and gives a movable body
+// the momentum that the particle loses.
 class Debris {
  public:
   void add(std::int32_t point) { points_.push_back({point, false}); }

@@ -32,18 +32,17 @@ void note_defects(HandOver& books, const RigidMotion& lattice_side, const RigidM
                   const MotionScale& scale) {
   books.momentum_defect_rel =
       relative((lattice_side.momentum() - body_side.momentum()).norm(), scale.momentum);
-  books.angular_momentum_defect_rel =
-      relative((lattice_side.angular_momentum - body_side.angular_momentum).norm(),
-               scale.angular_momentum);
+  books.angular_momentum_defect_rel = relative(
+      (lattice_side.angular_momentum - body_side.angular_momentum).norm(), scale.angular_momentum);
 }
 
-// Adds the rigid motion that the points lack to the body's P and L. Spin about a line of points stays
-// out: a moment that had to be raised for Bullet would give it back many times faster.
+// Adds the rigid motion that the points lack to the body's P and L. Spin about a line of points
+// stays out: a moment that had to be raised for Bullet would give it back many times faster.
 void give_motion(Lattice& lattice, std::span<const std::int32_t> points, const RigidMotion& body) {
   const RigidMotion now = rigid_motion(lattice.motion, lattice.mass, points);
   const Vec3 dv = (body.momentum() - now.momentum()) / now.mass;
-  const Vec3 domega = angular_velocity_of(
-      now.inertia, body.angular_momentum - now.angular_momentum, kSmallestMomentShare);
+  const Vec3 domega = angular_velocity_of(now.inertia, body.angular_momentum - now.angular_momentum,
+                                          kSmallestMomentShare);
   for (std::int32_t p : points) {
     PointMotion& point = lattice.motion[p];
     point.velocity += dv + domega.cross(point.position - now.centre);

@@ -18,8 +18,8 @@ struct HandOver {
   double angular_momentum_defect_rel = 0.0;  // |L' - L| / sum m|r||v|, about the centre of mass
   double kinetic_before_J = 0.0;
   double kinetic_after_J = 0.0;
-  double elastic_J = 0.0;      // in the springs, on either side: stored while rigid
-  double discarded_J = 0.0;    // vibration, zero when turning flexible
+  double elastic_J = 0.0;    // in the springs, on either side: stored while rigid
+  double discarded_J = 0.0;  // vibration, zero when turning flexible
   // Kinetic energy that a piece on a line loses (and gets back) because Bullet needs a moment of
   // inertia about the line that its points do not have; P and L are kept all the same.
   double regularised_J = 0.0;
@@ -32,8 +32,8 @@ HandOver freeze(btDiscreteDynamicsWorld& world, const Lattice& lattice,
                 std::span<const std::int32_t> points, std::unique_ptr<RigidProxy>& proxy);
 
 // A body becomes a lattice again: x_i = X + R r_i, v_i = V + omega x R r_i, with V and omega such
-// that the points have the body's P and L to rounding (Bullet's own numbers may be floats). The proxy
-// is not removed.
+// that the points have the body's P and L to rounding (Bullet's own numbers may be floats). The
+// proxy is not removed.
 HandOver thaw(Lattice& lattice, std::span<const std::int32_t> points, const RigidProxy& proxy);
 
 }  // namespace LIMBER_BULLET_PRECISION

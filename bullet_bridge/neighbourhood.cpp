@@ -13,7 +13,7 @@ namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 namespace {
 
-constexpr double kReachMargin = 0.01;    // m, beyond the way at the present speed
+constexpr double kReachMargin = 0.01;  // m, beyond the way at the present speed
 constexpr std::size_t kMostSamples = 300;
 
 struct Collector : btBroadphaseAabbCallback {
@@ -21,8 +21,8 @@ struct Collector : btBroadphaseAabbCallback {
   bool process(const btBroadphaseProxy* proxy) override {
     const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
     const int type = object->getInternalType();
-    const bool body = type == btCollisionObject::CO_RIGID_BODY ||
-                      type == btCollisionObject::CO_COLLISION_OBJECT;
+    const bool body =
+        type == btCollisionObject::CO_RIGID_BODY || type == btCollisionObject::CO_COLLISION_OBJECT;
     if (body && object->hasContactResponse()) found.push_back(object);
     return true;
   }
@@ -30,7 +30,7 @@ struct Collector : btBroadphaseAabbCallback {
 
 struct Bounds {
   Vec3 low = Vec3::Constant(1e30), high = Vec3::Constant(-1e30);
-  double fastest = 0.0;  // m/s
+  double fastest = 0.0;         // m/s
   double largest_radius = 0.0;  // m
 
   bool contains(const Vec3& p, double margin) const {
@@ -72,8 +72,8 @@ std::vector<const btCollisionObject*> bodies_within_reach(btDiscreteDynamicsWorl
   const Bounds bounds = bounds_of(lattice, points);
   const Vec3 reach = Vec3::Constant(1.5 * bounds.fastest * dt + kReachMargin);
   Collector collector;
-  world.getBroadphase()->aabbTest(to_bullet(bounds.low - reach),
-                                  to_bullet(bounds.high + reach), collector);
+  world.getBroadphase()->aabbTest(to_bullet(bounds.low - reach), to_bullet(bounds.high + reach),
+                                  collector);
   std::sort(collector.found.begin(), collector.found.end(),
             [](const btCollisionObject* a, const btCollisionObject* b) {
               return a->getWorldArrayIndex() < b->getWorldArrayIndex();

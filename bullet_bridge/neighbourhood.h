@@ -13,8 +13,8 @@ namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
 // The bodies whose bounding boxes the points may reach within dt (their boxes already include their
-// own way in this tick), in the order in which the world holds them. Bodies without contact response
-// are left out.
+// own way in this tick), in the order in which the world holds them. Bodies without contact
+// response are left out.
 std::vector<const btCollisionObject*> bodies_within_reach(btDiscreteDynamicsWorld& world,
                                                           const Lattice& lattice,
                                                           std::span<const std::int32_t> points,
@@ -26,8 +26,9 @@ std::vector<const btCollisionObject*> bodies_within_reach(btDiscreteDynamicsWorl
 double closing_speed(const Lattice& lattice, std::span<const std::int32_t> one,
                      std::span<const std::int32_t> other, double dt);
 
-// Does a point of the rigid piece come into the other body, or within 3 mm of it, in this tick? Both
-// move on as they move now; looked at four times. `local`: the piece's points in the frame of `body`.
+// Does a point of the rigid piece come into the other body, or within 3 mm of it, in this tick?
+// Both move on as they move now; looked at four times. `local`: the piece's points in the frame of
+// `body`.
 bool points_reach(const btCollisionObject& body, std::span<const Vec3> local,
                   const btCollisionObject& other, double dt);
 

@@ -16,7 +16,7 @@ inline namespace LIMBER_BULLET_PRECISION {
 struct Piece {
   std::size_t id = 0;
   std::size_t object = 0;
-  std::vector<std::int32_t> points;   // of the lattice, ascending
+  std::vector<std::int32_t> points;  // of the lattice, ascending
   PieceStrength strength;
   double size = 0.0;                  // m, twice the distance of the farthest point
   std::unique_ptr<RigidProxy> proxy;  // null while flexible
@@ -31,15 +31,15 @@ struct Piece {
 };
 
 // Strength from the live springs. The wave speed comes from the lattice itself: for an isotropic
-// lattice of central forces sum k l^2 / V = C_iijj = 15 (2/5) E = 6 E in three dimensions, 3 E in two
-// and E in one, so that c = sqrt(E / rho) = sqrt(sum k l^2 / (d M)) with d = 6, 3, 1.
+// lattice of central forces sum k l^2 / V = C_iijj = 15 (2/5) E = 6 E in three dimensions, 3 E in
+// two and E in one, so that c = sqrt(E / rho) = sqrt(sum k l^2 / (d M)) with d = 6, 3, 1.
 PieceStrength strength_of(const Lattice& lattice, std::span<const std::int32_t> points);
 
 // Root mean square speed about the piece's rigid motion, m/s.
 double rms_vibration(const Lattice& lattice, std::span<const std::int32_t> points);
 
-// Magnitude of the contact forces on the piece in the last substep, N: what gravity and the springs,
-// which cancel, leave of the force on its points.
+// Magnitude of the contact forces on the piece in the last substep, N: what gravity and the
+// springs, which cancel, leave of the force on its points.
 double contact_load(const Lattice& lattice, std::span<const std::int32_t> points,
                     const Vec3& gravity_m_s2);
 

@@ -17,14 +17,14 @@ namespace {
 // A hull of more than this many times the material in it is split. Above the 1.6 or so of a curved
 // shard, below the 4 of a bowl.
 constexpr double kHollow = 2.5;
-constexpr int kMostSplits = 3;             // halvings, so at most 8 hulls
-constexpr std::size_t kFewestItems = 6;    // a hull of fewer cells is never split
-constexpr double kMarginShare = 0.1;       // of the smallest half extent
-constexpr double kLargestMargin = 0.04;    // m, Bullet's default
-constexpr double kSmallestExtent = 1e-4;   // m, of the box that stands for a flat hull
+constexpr int kMostSplits = 3;            // halvings, so at most 8 hulls
+constexpr std::size_t kFewestItems = 6;   // a hull of fewer cells is never split
+constexpr double kMarginShare = 0.1;      // of the smallest half extent
+constexpr double kLargestMargin = 0.04;   // m, Bullet's default
+constexpr double kSmallestExtent = 1e-4;  // m, of the box that stands for a flat hull
 
-// Bullet keeps a contact point from tick to tick while it moves less than 2 % of the shape's size. A
-// shard of 3 cm falls farther than that within a tick (g dt^2 = 2.7 mm at 1/60 s against 0.6 mm):
+// Bullet keeps a contact point from tick to tick while it moves less than 2 % of the shape's size.
+// A shard of 3 cm falls farther than that within a tick (g dt^2 = 2.7 mm at 1/60 s against 0.6 mm):
 // it would rest on one point at a time and rock itself into the ground.
 constexpr double kLeastContactBreaking = 0.005;  // m
 
@@ -59,8 +59,9 @@ Box bounds(Items items) {
   return box;
 }
 
-// Directions of the 3 x 3 x 3 neighbourhood and the halves between them: 62 of them find the corners
-// of a shard to a few per cent of its size; exact hulls of a thousand points cost milliseconds.
+// Directions of the 3 x 3 x 3 neighbourhood and the halves between them: 62 of them find the
+// corners of a shard to a few per cent of its size; exact hulls of a thousand points cost
+// milliseconds.
 std::vector<Vec3> support_directions() {
   std::vector<Vec3> directions;
   for (int x = -2; x <= 2; ++x) {
@@ -127,8 +128,7 @@ std::unique_ptr<btCollisionShape> flat_box(Items items, btTransform& pose) {
 std::unique_ptr<btCollisionShape> shrunk_hull(Items items, btTransform& pose) {
   pose.setIdentity();
   const std::vector<btVector3> points = outermost_points(items);
-  const double wanted =
-      std::min(kLargestMargin, kMarginShare * bounds(items).half().minCoeff());
+  const double wanted = std::min(kLargestMargin, kMarginShare * bounds(items).half().minCoeff());
   btConvexHullComputer hull;
   const btScalar margin =
       hull.compute(&points[0].m_floats[0], sizeof(btVector3), static_cast<int>(points.size()),
@@ -189,7 +189,8 @@ ProxyShape fit_proxy_shape(std::vector<ShapeItem> items) {
     result.parts_.push_back(shrunk_hull(group, pose));
     compound->addChildShape(pose, result.parts_.back().get());
   }
-  const bool alone = groups.size() == 1 && compound->getChildTransform(0) == btTransform::getIdentity();
+  const bool alone =
+      groups.size() == 1 && compound->getChildTransform(0) == btTransform::getIdentity();
   if (!alone) result.parts_.push_back(std::move(compound));
   return result;
 }

@@ -49,7 +49,8 @@ std::vector<std::int32_t> points_of_cell(const Lattice& lattice, std::int32_t ce
 }
 
 double volume_of_cell(const Lattice& lattice, std::int32_t cell) {
-  const LatticeObject& object = lattice.objects[lattice.point_object[points_of_cell(lattice, cell)[0]]];
+  const LatticeObject& object =
+      lattice.objects[lattice.point_object[points_of_cell(lattice, cell)[0]]];
   return cell_volume(object.authored.geometry,
                      CellId(static_cast<std::size_t>(cell - object.cells.begin)));
 }
@@ -113,8 +114,7 @@ RigidProxy::RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
   info.m_restitution = static_cast<btScalar>(attributes.restitution);
   info.m_linearSleepingThreshold = static_cast<btScalar>(kSleepSpeed);
   info.m_angularSleepingThreshold = static_cast<btScalar>(kSleepAngularSpeed);
-  info.m_startWorldTransform =
-      btTransform(to_bullet(frame.orientation), to_bullet(frame.centre));
+  info.m_startWorldTransform = btTransform(to_bullet(frame.orientation), to_bullet(frame.centre));
   body_ = std::make_unique<btRigidBody>(info);
   body_->setFlags(0);  // gyroscopic torque is fly()'s business: Bullet's loses angular momentum
   body_->setLinearVelocity(to_bullet(frame.velocity));
@@ -127,8 +127,7 @@ RigidProxy::~RigidProxy() { world_.removeRigidBody(body_.get()); }
 
 void RigidProxy::write_points(Lattice& lattice, std::span<const std::int32_t> points) const {
   const Vec3 centre = from_bullet(body_->getWorldTransform().getOrigin());
-  const Mat3 rotation =
-      from_bullet(body_->getWorldTransform().getRotation()).toRotationMatrix();
+  const Mat3 rotation = from_bullet(body_->getWorldTransform().getRotation()).toRotationMatrix();
   const Vec3 velocity = from_bullet(body_->getLinearVelocity());
   const Vec3 omega = from_bullet(body_->getAngularVelocity());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -139,8 +138,7 @@ void RigidProxy::write_points(Lattice& lattice, std::span<const std::int32_t> po
 
 RigidMotion RigidProxy::motion() const {
   RigidMotion motion;
-  const Mat3 rotation =
-      from_bullet(body_->getWorldTransform().getRotation()).toRotationMatrix();
+  const Mat3 rotation = from_bullet(body_->getWorldTransform().getRotation()).toRotationMatrix();
   motion.mass = mass_;
   motion.centre = from_bullet(body_->getWorldTransform().getOrigin());
   motion.velocity = from_bullet(body_->getLinearVelocity());

@@ -57,8 +57,8 @@ class RigidProxy {
 
   // Free flight. Bullet's step x += v' dt falls g t dt / 2 too far and keeps omega where it should
   // keep L. remember() before the solver, fly() after the move: the path of constant acceleration
-  // x += (v + v') dt / 2, and the rotation of a free body. The rotation goes on in double as long as
-  // nobody else changes the body.
+  // x += (v + v') dt / 2, and the rotation of a free body. The rotation goes on in double as long
+  // as nobody else changes the body.
   void remember();
   void fly(double tick);
 

@@ -15,21 +15,21 @@ inline namespace LIMBER_BULLET_PRECISION {
 // body held still while a lattice hits it gains energy out of nothing (up to twentyfold, measured),
 // although momentum stays exact; its shadow moves with every substep.
 //
-// Bullet adds gravity when it solves, so that the shadow of a supported body goes without; that of an
-// airborne one falls with the lattice and is written back without the tick's gravity.
+// Bullet adds gravity when it solves, so that the shadow of a supported body goes without; that of
+// an airborne one falls with the lattice and is written back without the tick's gravity.
 struct ShadowBody {
-  btRigidBody* body = nullptr;  // null for immovable things without a velocity
-  double inverse_mass = 0.0;    // 1/kg, 0 for static and kinematic bodies
+  btRigidBody* body = nullptr;                // null for immovable things without a velocity
+  double inverse_mass = 0.0;                  // 1/kg, 0 for static and kinematic bodies
   Mat3 inverse_inertia_local = Mat3::Zero();  // 1/(kg m^2), body frame
 
-  Vec3 position;                    // of the centre of mass, m
-  Eigen::Quaterniond orientation;   // body to world
-  Mat3 rotation;                    // the same as a matrix
-  Mat3 inverse_inertia;             // world frame
+  Vec3 position;                         // of the centre of mass, m
+  Eigen::Quaterniond orientation;        // body to world
+  Mat3 rotation;                         // the same as a matrix
+  Mat3 inverse_inertia;                  // world frame
   Vec3 velocity = Vec3::Zero();          // m/s
   Vec3 angular_velocity = Vec3::Zero();  // rad/s
 
-  Vec3 start_position;                    // at the tick's start
+  Vec3 start_position;  // at the tick's start
   Eigen::Quaterniond start_orientation;
   Vec3 force = Vec3::Zero();   // of this substep, N
   Vec3 torque = Vec3::Zero();  // of this substep about the centre of mass, N m

@@ -21,7 +21,8 @@ struct Stage::World {
   std::unique_ptr<CoSimulation> co_simulation;
 
   World() {
-    // Several contact points at once, as Bullet's own examples ask for: small bodies rock otherwise.
+    // Several contact points at once, as Bullet's own examples ask for: small bodies rock
+    // otherwise.
     configuration.setPlaneConvexMultipointIterations();
     configuration.setConvexConvexMultipointIterations();
   }
@@ -35,8 +36,8 @@ struct Stage::World {
                    double friction, double restitution) {
     btVector3 inertia(0, 0, 0);
     if (mass > 0.0) shape->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
-    btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr,
-                                                  shape.get(), inertia);
+    btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr, shape.get(),
+                                                  inertia);
     info.m_startWorldTransform.setOrigin(to_bullet(centre));
     info.m_friction = static_cast<btScalar>(friction);
     info.m_restitution = static_cast<btScalar>(restitution);

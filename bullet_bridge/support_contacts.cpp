@@ -41,8 +41,8 @@ SupportContact make_contact(const btManifoldPoint& point, int a, int b, const Sh
 // One direction of a contact with what does not change during the sweeps of a substep.
 struct Axis {
   Vec3 direction;
-  Vec3 arm_a, arm_b;    // r x direction
-  Vec3 turn_a, turn_b;  // I^-1 (r x direction)
+  Vec3 arm_a, arm_b;            // r x direction
+  Vec3 turn_a, turn_b;          // I^-1 (r x direction)
   double effective_mass = 0.0;  // kg
 
   double relative_speed(const ShadowBody& a, const ShadowBody& b) const {
@@ -65,8 +65,8 @@ Axis make_axis(const ShadowBody& a, const ShadowBody& b, const Vec3& on_a, const
   axis.arm_b = (on_b - b.position).cross(direction);
   axis.turn_a = a.inverse_inertia * axis.arm_a;
   axis.turn_b = b.inverse_inertia * axis.arm_b;
-  const double inverse_mass = a.inverse_mass + b.inverse_mass + axis.arm_a.dot(axis.turn_a) +
-                              axis.arm_b.dot(axis.turn_b);
+  const double inverse_mass =
+      a.inverse_mass + b.inverse_mass + axis.arm_a.dot(axis.turn_a) + axis.arm_b.dot(axis.turn_b);
   axis.effective_mass = inverse_mass > 0.0 ? 1.0 / inverse_mass : 0.0;
   return axis;
 }
@@ -98,8 +98,8 @@ void start_from_last_impulse(const PreparedContact& prepared, ShadowSet& shadows
   prepared.axis[2].push(a, b, c.tangent_impulse[1]);
 }
 
-// Changes one accumulated impulse so that the relative speed along the axis becomes `wanted`, within
-// [low, high].
+// Changes one accumulated impulse so that the relative speed along the axis becomes `wanted`,
+// within [low, high].
 void solve_axis(const Axis& axis, ShadowBody& a, ShadowBody& b, double wanted, double low,
                 double high, double& accumulated) {
   const double change = (wanted - axis.relative_speed(a, b)) * axis.effective_mass;

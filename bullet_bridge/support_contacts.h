@@ -30,14 +30,15 @@ class ShadowSet {
 };
 
 // A point where two bodies of Bullet touch, kept for one tick: what carries a body that a lattice
-// presses on. Without these a box on the ground gives way for a whole tick (energy +105 %, measured).
+// presses on. Without these a box on the ground gives way for a whole tick (energy +105 %,
+// measured).
 struct SupportContact {
-  int a = -1, b = -1;            // shadows
-  Vec3 anchor_a, anchor_b;       // in the bodies' frames, m
-  Vec3 normal;                   // world, from b to a
-  Vec3 tangent[2];               // world
+  int a = -1, b = -1;       // shadows
+  Vec3 anchor_a, anchor_b;  // in the bodies' frames, m
+  Vec3 normal;              // world, from b to a
+  Vec3 tangent[2];          // world
   double friction = 0.0;
-  double impulse = 0.0;          // of the last substep, N s, >= 0: where the next one starts
+  double impulse = 0.0;  // of the last substep, N s, >= 0: where the next one starts
   double tangent_impulse[2] = {0.0, 0.0};
 };
 
@@ -49,8 +50,8 @@ inline constexpr int kSupportRings = 3;
 // shadow for each body on the way. Call it when the first ring is in the set.
 std::vector<SupportContact> gather_support_contacts(btDispatcher& dispatcher, ShadowSet& shadows);
 
-// Contacts that hang together through movable bodies: solved as one, and only when the lattice pushed
-// one of their bodies.
+// Contacts that hang together through movable bodies: solved as one, and only when the lattice
+// pushed one of their bodies.
 struct SupportGroup {
   std::vector<SupportContact> contacts;
   std::vector<int> bodies;  // movable shadows

@@ -40,10 +40,9 @@ int calm_ticks_needed(const PieceStrength& piece, const SwitchSettings& settings
 
 bool calm(const PieceStrength& piece, const SwitchSettings& settings, const Calmness& seen) {
   const bool low = seen.peak_load < settings.calm_load_share;
-  const bool steady =
-      std::abs(seen.peak_load - seen.peak_load_before) < settings.steady_load_share;
-  return (low || steady) && vibration_strain(piece, seen.rms_vibration) <
-                                0.5 * flexible_strain(piece, settings);
+  const bool steady = std::abs(seen.peak_load - seen.peak_load_before) < settings.steady_load_share;
+  return (low || steady) &&
+         vibration_strain(piece, seen.rms_vibration) < 0.5 * flexible_strain(piece, settings);
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -17,16 +17,16 @@ struct PieceStrength {
 
 struct SwitchSettings {
   // A piece is handed to the lattice when a load would strain it by this share of its weakest
-  // spring's threshold. 0.25: a pot that strikes with its rim cracks in bending at 0.4 of the strain
-  // that v / c gives (measured on the teapot), less a margin.
+  // spring's threshold. 0.25: a pot that strikes with its rim cracks in bending at 0.4 of the
+  // strain that v / c gives (measured on the teapot), less a margin.
   double load_share = 0.25;
   // ... or by this strain whatever its strength: what a player would see (1 % of its length).
   double visible_strain = 0.01;
   // A lattice becomes rigid again when for `calm_ticks` ticks its peak load stayed below this share
   // of the threshold and its vibration below half of what makes it flexible.
   double calm_load_share = 0.5;
-  // ... or changed by less than this share from tick to tick: a jammed crack may keep a spring at 0.8
-  // of its threshold for ever, at rest.
+  // ... or changed by less than this share from tick to tick: a jammed crack may keep a spring at
+  // 0.8 of its threshold for ever, at rest.
   double steady_load_share = 0.05;
   int calm_ticks = 3;
   // Time over which a load counts as sustained, s: contacts of a resting body chatter from tick to
@@ -39,8 +39,8 @@ double averaged_load(double average, double load, double dt, double tau);
 
 // Strain of a piece of mass m that meets a partner of mass M at a closing speed v: the wave of a
 // collinear impact has v / c; a partner lighter than the piece shortens the contact,
-// sqrt(m_red / m) with m_red = m M / (m + M), as peak force pi J / (2 t_c), t_c = pi sqrt(m_red / k)
-// has it. An immovable partner has infinite mass.
+// sqrt(m_red / m) with m_red = m M / (m + M), as peak force pi J / (2 t_c), t_c = pi sqrt(m_red /
+// k) has it. An immovable partner has infinite mass.
 double impact_strain(const PieceStrength& piece, double closing_speed, double partner_mass);
 
 // Strain under a sustained force F over the piece's length L, without knowing its section:
@@ -53,8 +53,8 @@ double flexible_strain(const PieceStrength& piece, const SwitchSettings& setting
 // The strain that a vibration of r.m.s. speed v about the rigid motion stands for: v / c.
 double vibration_strain(const PieceStrength& piece, double rms_speed);
 
-// Ticks for which a piece of this length has to be quiet: the settings', but at least a period of its
-// slowest longitudinal vibration, 2 L / c, because every vibration stands still for a moment.
+// Ticks for which a piece of this length has to be quiet: the settings', but at least a period of
+// its slowest longitudinal vibration, 2 L / c, because every vibration stands still for a moment.
 int calm_ticks_needed(const PieceStrength& piece, const SwitchSettings& settings, double length_m,
                       double tick, bool touched);
 

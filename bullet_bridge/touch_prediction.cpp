@@ -25,9 +25,9 @@ struct Leaf {
 };
 
 struct Closest {
-  double gap;    // m
-  Vec3 normal;   // unit, from the other body to this one
-  Vec3 at;       // world, on the other body
+  double gap;   // m
+  Vec3 normal;  // unit, from the other body to this one
+  Vec3 at;      // world, on the other body
 };
 
 void collect_leaves(const btCollisionShape& shape, const btTransform& pose,

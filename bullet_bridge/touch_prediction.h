@@ -21,9 +21,9 @@ struct PredictedTouch {
 // gravity adds within the tick.
 double largest_closing_speed(const btCollisionObject& a, const btCollisionObject& b, double dt);
 
-// Will the body touch the other within dt? Conservative: the gap along the shortest distance against
-// what the bodies can close, with their rotation; the normal may swing meanwhile.
-// The impulse of a touch that it foresees is not applied yet, so that a body may still change its
+// Will the body touch the other within dt? Conservative: the gap along the shortest distance
+// against what the bodies can close, with their rotation; the normal may swing meanwhile. The
+// impulse of a touch that it foresees is not applied yet, so that a body may still change its
 // representation. Concave partners count as touched when their pair exists.
 std::optional<PredictedTouch> predict_touch(const btRigidBody& body, const btCollisionObject& other,
                                             double dt);

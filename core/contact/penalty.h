@@ -8,8 +8,8 @@
 namespace limber {
 
 // The penalty law shared by point-point and point-body contact. The stiffness follows from masses,
-// k = omega_c^2 m with m the reduced mass of the pair, so that the contact's own frequency is omega_c
-// whatever the masses are.
+// k = omega_c^2 m with m the reduced mass of the pair, so that the contact's own frequency is
+// omega_c whatever the masses are.
 struct PenaltyContact {
   double frequency = 0.0;    // omega_c, rad/s
   double restitution = 0.0;  // e, 0..1
@@ -21,9 +21,9 @@ struct PenaltyContact {
 inline constexpr double kLeastRestitution = 0.1;
 
 // Normal force, N, never adhesive: k depth while the two approach, e^2 k depth while they separate
-// (Moore and Wilhelms, SIGGRAPH 1988). The contact gives back e^2 of the energy it took whatever the
-// mass behind the point is. A dashpot does not: it is made for the point's mass, and a body of a
-// thousand points bounces off it almost elastically.
+// (Moore and Wilhelms, SIGGRAPH 1988). The contact gives back e^2 of the energy it took whatever
+// the mass behind the point is. A dashpot does not: it is made for the point's mass, and a body of
+// a thousand points bounces off it almost elastically.
 inline double penalty_force(const PenaltyContact& law, double reduced_mass, double depth,
                             double separation_speed) {
   if (depth <= 0.0) return 0.0;

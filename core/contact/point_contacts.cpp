@@ -26,8 +26,8 @@ PenaltyContact law_between(const LatticeObject& a, const LatticeObject& b) {
 // Refreshes between two looks at how far pieces have deformed.
 constexpr int kDeformationCheckInterval = 16;
 
-// Refreshes between two listings within pieces while things break: the ends of an edge that has just
-// broken are a tenth of its length from contact, which takes them tens of substeps.
+// Refreshes between two listings within pieces while things break: the ends of an edge that has
+// just broken are a tenth of its length from contact, which takes them tens of substeps.
 constexpr int kWithinInterval = 4;
 
 struct Bounds {
@@ -69,16 +69,17 @@ void PointContacts::Listing::remember(const Lattice& lattice, std::vector<std::i
   for (std::int32_t p : points) at.push_back(lattice.motion[p].position);
 }
 
-void PointContacts::refresh(const Lattice& lattice, const Components& pieces,
-                            bool topology_changed, bool carried_changed) {
+void PointContacts::refresh(const Lattice& lattice, const Components& pieces, bool topology_changed,
+                            bool carried_changed) {
   if (topology_changed || carried_changed) {
     group_points(lattice, pieces);
     skin_ = kSkinShare * largest_radius(lattice, all_points(lattice));
   }
   if (skin_ == 0.0) return;
   if (topology_changed || carried_changed || moved_too_far(lattice)) list_between(lattice);
-  within_stale_ = within_stale_ || topology_changed ||
-                  (refreshes_ % kDeformationCheckInterval == 0 && deformed_too_far(lattice, pieces));
+  within_stale_ =
+      within_stale_ || topology_changed ||
+      (refreshes_ % kDeformationCheckInterval == 0 && deformed_too_far(lattice, pieces));
   if (within_stale_ && refreshes_ % kWithinInterval == 0) list_within(lattice);
   ++refreshes_;
 }
@@ -162,9 +163,8 @@ PointContacts::Pairs PointContacts::near_pairs(const Lattice& lattice,
     if ((at[i] - at[j]).squaredNorm() > reach * reach || !accept(p, q)) return;
     pairs.push_back(make_pair(lattice, p, q));
   });
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& l, const Pair& r) {
-    return l.a != r.a ? l.a < r.a : l.b < r.b;
-  });
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Pair& l, const Pair& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; });
   return pairs;
 }
 
@@ -172,12 +172,11 @@ void PointContacts::list_between(const Lattice& lattice) {
   between_listing_.remember(lattice, all_points(lattice));
   old_between_.swap(between_);
   // Two carried points belong to rigid bodies: their own engine's business.
-  between_ = near_pairs(lattice, points_near_other_groups(lattice),
-                        [&](std::int32_t p, std::int32_t q) {
-                          return group_[p] != group_[q] &&
-                                 (lattice.role[p] == PointRole::kDynamic ||
-                                  lattice.role[q] == PointRole::kDynamic);
-                        });
+  between_ =
+      near_pairs(lattice, points_near_other_groups(lattice), [&](std::int32_t p, std::int32_t q) {
+        return group_[p] != group_[q] &&
+               (lattice.role[p] == PointRole::kDynamic || lattice.role[q] == PointRole::kDynamic);
+      });
   // A piece may have split between two points of it: they are in the list above now.
   std::erase_if(within_, [&](const Pair& pair) { return group_[pair.a] != group_[pair.b]; });
 }
@@ -203,23 +202,21 @@ PointContacts::Pair PointContacts::make_pair(const Lattice& lattice, std::int32_
   pair.a = p;
   pair.b = q;
   pair.contact_distance = eased_contact_distance(lattice, p, q, distance);
-  pair.reduced_mass =
-      lattice.mass[p] * lattice.mass[q] / (lattice.mass[p] + lattice.mass[q]);
+  pair.reduced_mass = lattice.mass[p] * lattice.mass[q] / (lattice.mass[p] + lattice.mass[q]);
   pair.law = law_between(lattice.objects[object_p], lattice.objects[object_q]);
   return pair;
 }
 
 // A pair that is listed for the first time while it overlaps (a piece thawed inside another one)
 // starts without force: its contact distance is what it finds, and grows back as the two separate.
-double PointContacts::eased_contact_distance(const Lattice& lattice, std::int32_t p,
-                                             std::int32_t q, double contact_distance) const {
+double PointContacts::eased_contact_distance(const Lattice& lattice, std::int32_t p, std::int32_t q,
+                                             double contact_distance) const {
   const double now = (lattice.motion[q].position - lattice.motion[p].position).norm();
   if (now >= contact_distance) return contact_distance;
   for (const Pairs* old : {&old_between_, &old_within_, &within_}) {
-    const auto known = std::lower_bound(old->begin(), old->end(), std::pair(p, q),
-                                        [](const Pair& pair, const auto& key) {
-                                          return std::pair(pair.a, pair.b) < key;
-                                        });
+    const auto known = std::lower_bound(
+        old->begin(), old->end(), std::pair(p, q),
+        [](const Pair& pair, const auto& key) { return std::pair(pair.a, pair.b) < key; });
     if (known == old->end() || known->a != p || known->b != q) continue;
     return std::max(known->contact_distance, now);
   }

@@ -11,13 +11,14 @@ namespace limber {
 
 // Point-point penalty collision within and between objects (paper, section 5.1). Two points repel
 // when nearer than the sum of their contact radii; points joined by an unbroken edge do not. The
-// force is along the line between them: friction across it, between points a contact distance apart,
-// would be a couple out of nothing (4 % of the angular momentum of two colliding blocks, measured).
+// force is along the line between them: friction across it, between points a contact distance
+// apart, would be a couple out of nothing (4 % of the angular momentum of two colliding blocks,
+// measured).
 //
 // Two lists keep the substeps cheap. Pairs of different pieces are found with a uniform grid over
-// the points that lie in another piece's bounding box, and listed anew when something has moved half
-// of the list's skin. Pairs within a piece keep their distance as long as the piece moves rigidly:
-// their list lives until the piece has deformed by half a skin.
+// the points that lie in another piece's bounding box, and listed anew when something has moved
+// half of the list's skin. Pairs within a piece keep their distance as long as the piece moves
+// rigidly: their list lives until the piece has deformed by half a skin.
 class PointContacts {
  public:
   // Lists anew what has to be. `topology_changed`: something broke, or other points are dynamic;

@@ -111,8 +111,7 @@ double contact_frequency_of(const PhysicalModel& model) {
   const double spacing = median_rest_length(model);
   const double to_stand =
       kStandardGravity * largest_extent(model) / (kContactSinkShare * spacing * spacing);
-  return std::sqrt(
-      std::max(kContactStiffnessShare * median_stiffness_per_mass(model), to_stand));
+  return std::sqrt(std::max(kContactStiffnessShare * median_stiffness_per_mass(model), to_stand));
 }
 
 // Step of semi-implicit Euler with springs K, stiffness-proportional damping and one contact a

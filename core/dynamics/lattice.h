@@ -33,8 +33,8 @@ struct LatticeObject {
   IdRange<EdgeId> edges;
   IdRange<FaceId> faces;
   IdRange<CellId> cells;
-  double largest_step = 0.0;        // s, stable with its contacts
-  double contact_frequency = 0.0;   // omega_c of penalty.h, rad/s
+  double largest_step = 0.0;       // s, stable with its contacts
+  double contact_frequency = 0.0;  // omega_c of penalty.h, rad/s
 };
 
 // All simulated objects, compiled into arrays. Topology and constants do not change while they are
@@ -52,23 +52,20 @@ struct Lattice {
   std::vector<std::uint8_t> touched;       // shape (P): set by every contact force on the point
   std::vector<double> peak_load;  // shape (P): largest sampled stretch / threshold of its springs
 
-  std::vector<Spring> springs;  // shape (E), as added
-  IndexRows point_edges;        // point -> edges
+  std::vector<Spring> springs;                 // shape (E), as added
+  IndexRows point_edges;                       // point -> edges
   std::vector<std::int32_t> point_neighbours;  // other end of each edge in point_edges.items
   BreakingTopology topology;
   BreakingState breaking;
 
   // The springs that are integrated: unbroken, both ends dynamic. Compact copies, so that the inner
   // loop streams through them; one that breaks goes slack until the next rebuild.
-  std::vector<Spring> active;             // shape (A)
-  std::vector<std::int32_t> active_edge;  // shape (A) -> edge
+  std::vector<Spring> active;                // shape (A)
+  std::vector<std::int32_t> active_edge;     // shape (A) -> edge
   std::vector<std::int32_t> active_of_edge;  // shape (E) -> active or -1
   std::vector<std::int32_t> dynamic_points;
   std::vector<std::int32_t> carried_points;
   std::vector<std::int32_t> carrier;  // shape (P): which body carries it, for carried points
-
-  std::span<const PointMotion> motions() const { return motion; }
-  std::span<const double> masses() const { return mass; }
 };
 
 // Are the points joined by an unbroken edge?
@@ -99,8 +96,9 @@ double elastic_energy(const Lattice& lattice, std::span<const std::int32_t> poin
 // a factor of two to three.
 inline constexpr double kContactStiffnessShare = 0.1;
 
-// A soft or tall object gets more: standing on the ground it may sink by this share of its spacing a.
-// Its lowest points bear columns of H / a points each, so that they sink by g (H / a) / omega_c^2.
+// A soft or tall object gets more: standing on the ground it may sink by this share of its spacing
+// a. Its lowest points bear columns of H / a points each, so that they sink by g (H / a) /
+// omega_c^2.
 inline constexpr double kContactSinkShare = 0.05;
 inline constexpr double kStandardGravity = 9.80665;  // m/s^2
 

@@ -68,7 +68,8 @@ Mat3 best_rotation(std::span<const PointMotion> motion, std::span<const Vec3> re
   reference_centre /= total;
   Mat3 moment = Mat3::Zero();
   for (std::int32_t p : of) {
-    moment += mass[p] * (motion[p].position - centre) * (reference[p] - reference_centre).transpose();
+    moment +=
+        mass[p] * (motion[p].position - centre) * (reference[p] - reference_centre).transpose();
   }
   const Eigen::JacobiSVD<Mat3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Mat3 proper = Mat3::Identity();

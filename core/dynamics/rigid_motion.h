@@ -14,12 +14,12 @@ struct PointMotion {
 
 // What a set of mass points is as a rigid body. World frame, about the centre of mass.
 struct RigidMotion {
-  double mass = 0.0;                       // kg
-  Vec3 centre = Vec3::Zero();              // m
-  Vec3 velocity = Vec3::Zero();            // P / M, m/s
-  Vec3 angular_momentum = Vec3::Zero();    // about the centre, kg m^2/s
-  Mat3 inertia = Mat3::Zero();             // about the centre, kg m^2
-  Vec3 angular_velocity = Vec3::Zero();    // I^-1 L, rad/s; no spin about an axis without inertia
+  double mass = 0.0;                     // kg
+  Vec3 centre = Vec3::Zero();            // m
+  Vec3 velocity = Vec3::Zero();          // P / M, m/s
+  Vec3 angular_momentum = Vec3::Zero();  // about the centre, kg m^2/s
+  Mat3 inertia = Mat3::Zero();           // about the centre, kg m^2
+  Vec3 angular_velocity = Vec3::Zero();  // I^-1 L, rad/s; no spin about an axis without inertia
 
   Vec3 momentum() const { return mass * velocity; }
   double kinetic_energy() const;  // of the rigid motion alone, J

@@ -21,8 +21,8 @@ inline SpringStretch spring_stretch(const Vec3& d, const Vec3& w, double rest_le
   return {n, length - rest_length, w.dot(n)};
 }
 
-// Tension of a damped spring, N, positive when it pulls: T = k (L - L0) + c dL/dt. The force on a is
-// +T n, on b -T n: along the edge, so that rigid rotation is not damped (paper, section 5.1).
+// Tension of a damped spring, N, positive when it pulls: T = k (L - L0) + c dL/dt. The force on a
+// is +T n, on b -T n: along the edge, so that rigid rotation is not damped (paper, section 5.1).
 inline double spring_tension(double stiffness, double damping, double stretch, double rate) {
   return stiffness * stretch + damping * rate;
 }

@@ -15,8 +15,9 @@ struct FrequencyBound {
 // K v = omega^2 M v over all unbroken edges. A few power iterations find an estimate, a sparse
 // factorisation of (1.02 omega)^2 M - K proves that nothing lies above it (it is positive definite
 // exactly then). Factors of more than `most_entries` are not computed: a shell of 3400 points fills
-// 0.9 million (0.2 s), a solid block of 1700 points 1.6 million (0.3 s), one of 2700 points 3.1 million
-// (0.9 s), and the time grows with the square; larger models get the bound of element_bound.h.
+// 0.9 million (0.2 s), a solid block of 1700 points 1.6 million (0.3 s), one of 2700 points 3.1
+// million (0.9 s), and the time grows with the square; larger models get the bound of
+// element_bound.h.
 FrequencyBound highest_frequency(const PhysicalModel& model, std::size_t most_entries = 3500000);
 
 // Largest stable step of semi-implicit Euler with damping from the old velocities, s:

@@ -21,7 +21,8 @@ class InputError : public std::runtime_error {
   Diagnostic diagnostic;
 };
 
-// The simulation could not go on (blow-up, overload): a setting has to change. Programs exit with 1.
+// The simulation could not go on (blow-up, overload): a setting has to change. Programs exit
+// with 1.
 class SimulationError : public std::runtime_error {
  public:
   explicit SimulationError(Diagnostic d) : std::runtime_error(d.text()), diagnostic(std::move(d)) {}

@@ -57,7 +57,8 @@ std::array<PointId, 3> starting_with_smallest(std::array<PointId, 3> corners);
 // The same triangle seen from the other side, starting with the same point.
 std::array<PointId, 3> reversed(std::array<PointId, 3> corners);
 
-// Closed surface of the cell: sum over faces of a . (b x c) / 6. m^3, positive when faces point out.
+// Closed surface of the cell: sum over faces of a . (b x c) / 6. m^3, positive when faces point
+// out.
 double cell_volume(const GeometricModel& model, CellId cell);
 
 // Builds a model bottom-up; every point belongs to the subobject that was begun last.

@@ -10,8 +10,8 @@ namespace limber {
 inline constexpr double kUnbreakable = std::numeric_limits<double>::infinity();
 
 struct PointAttributes {
-  double mass = 0.0;                // kg, > 0
-  Vec3 velocity = Vec3::Zero();     // m/s
+  double mass = 0.0;             // kg, > 0
+  Vec3 velocity = Vec3::Zero();  // m/s
 };
 
 struct EdgeAttributes {
@@ -41,10 +41,10 @@ struct SurfaceProperties {
 
 // What belongs to the object as a whole.
 struct ObjectAttributes {
-  double friction = 0.5;              // Coulomb coefficient, combined with the partner's by product
-  double restitution = 0.0;           // of contacts, 0..1, combined by product as Bullet does
-  double internal_damping = 0.0;      // 1/s, draws each connected piece towards its rigid motion
-  double softening = 1.0;             // S: real modulus / modulus simulated, for the reports
+  double friction = 0.5;          // Coulomb coefficient, combined with the partner's by product
+  double restitution = 0.0;       // of contacts, 0..1, combined by product as Bullet does
+  double internal_damping = 0.0;  // 1/s, draws each connected piece towards its rigid motion
+  double softening = 1.0;         // S: real modulus / modulus simulated, for the reports
 };
 
 // A geometric model with all its physical attributes: what the simulator takes and gives back.

@@ -9,9 +9,9 @@
 namespace limber {
 
 struct SurfaceTriangle {
-  std::array<int, 3> corners;      // into SurfaceModel::points, anticlockwise from outside
-  FaceId source;                   // the face of the physical model
-  int subobject = -1;              // into SurfaceModel::subobject_names
+  std::array<int, 3> corners;        // into SurfaceModel::points, anticlockwise from outside
+  FaceId source;                     // the face of the physical model
+  int subobject = -1;                // into SurfaceModel::subobject_names
   bool exposed_by_breaking = false;  // an inner face until a cell broke
 };
 

@@ -7,7 +7,8 @@
 
 namespace limber {
 
-// 64-bit XXH3 of a stream of plain values: equal hashes mean, for all practical purposes, equal bits.
+// 64-bit XXH3 of a stream of plain values: equal hashes mean, for all practical purposes, equal
+// bits.
 class StateHash {
  public:
   StateHash();
@@ -18,10 +19,8 @@ class StateHash {
     add_bytes(values.data(), values.size_bytes());
   }
   template <class T>
-    requires std::is_arithmetic_v<T>
-  void add(T value) {
-    add_bytes(&value, sizeof value);
-  }
+  requires std::is_arithmetic_v<T>
+  void add(T value) { add_bytes(&value, sizeof value); }
   std::uint64_t value() const;
 
  private:

@@ -33,8 +33,9 @@ int main() {
   clay.youngs_modulus = 1.5e10;  // Pa
   clay.strain_at_break = 1e-3;
   clay.damping_ratio = 0.2;
-  clay.internal_damping = 30;        // 1/s
-  clay.softening = 1000;             // modulus / 1000; the same impact speed breaks it
+  clay.internal_damping = 30;  // 1/s
+  clay.softening = 1000;       // modulus / 1000; the same impact speed breaks it
+
   limber.add(limber::with_material(  // Limber: 12 x 2 x 2 cells of 5 cm, 1 m above the floor
       limber::box_lattice({12, 2, 2}, {0.05, 0.05, 0.05}, {-0.3, 1, -0.05}, "beam"), "beam", clay));
 

@@ -16,8 +16,8 @@ void set_wobbling(PhysicalModel& model, const Vec3& centre, double rate_per_s) {
   }
 }
 
-PhysicalModel cube(const std::string& name, int cells, const Material& material,
-                   const Vec3& centre, const Vec3& colour) {
+PhysicalModel cube(const std::string& name, int cells, const Material& material, const Vec3& centre,
+                   const Vec3& colour) {
   const double spacing = kSide / cells;
   const Vec3 corner = centre - Vec3::Constant(0.5 * kSide);
   PhysicalModel model = with_material(
@@ -39,7 +39,7 @@ Material jelly() {
 Material brick(double softening) {
   Material m;
   m.density = 2000.0;
-  m.youngs_modulus = 1.5e10;         // fired clay
+  m.youngs_modulus = 1.5e10;  // fired clay
   m.strain_at_break = 3e-4;
   m.damping_ratio = 0.2;
   m.internal_damping = 30.0;

@@ -11,9 +11,9 @@ namespace limber::demos {
 // A box of the rigid world; mass 0 makes it static.
 struct RigidBox {
   std::string name;
-  Vec3 half_extents;         // m
-  Vec3 centre;               // m
-  double mass = 0.0;         // kg
+  Vec3 half_extents;  // m
+  Vec3 centre;        // m
+  double mass = 0.0;  // kg
   double friction = 0.5;
   double restitution = 0.0;
   Vec3 colour = {0.6, 0.5, 0.4};

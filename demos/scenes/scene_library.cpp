@@ -34,9 +34,9 @@ const SceneEntry& find_scene(const std::string& name) {
   for (const SceneEntry& entry : scene_library()) {
     if (entry.name == name) return entry;
   }
-  throw InputError({"scene " + name, "there is no scene of that name",
-                    "did you mean " + nearest_name(scene_library(), name) +
-                        "? 'limber run' lists them all"});
+  throw InputError(
+      {"scene " + name, "there is no scene of that name",
+       "did you mean " + nearest_name(scene_library(), name) + "? 'limber run' lists them all"});
 }
 
 ParameterValues values_for(const SceneEntry& entry, const ParameterValues& changes) {

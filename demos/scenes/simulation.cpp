@@ -88,9 +88,9 @@ struct Simulation::State {
   double fastest_chip = 0.0;   // m/s
   double fastest_piece_rel = 0.0;
   double highest_rise = -1e30;
-  std::vector<Vec3> start_centre;                // of each object
-  std::vector<std::vector<PointMotion>> start;   // of each object's points
-  std::vector<std::vector<double>> masses;       // likewise, kg
+  std::vector<Vec3> start_centre;               // of each object
+  std::vector<std::vector<PointMotion>> start;  // of each object's points
+  std::vector<std::vector<double>> masses;      // likewise, kg
 
   State(const Scene& s, const RunOptions& o)
       : scene(s), options(o), stage(s.gravity, settings_of(o)) {
@@ -98,8 +98,8 @@ struct Simulation::State {
     if (options.tick <= 0.0) options.tick = scene.tick;
     if (scene.floor) stage.add_floor(scene.floor_friction);
     for (const RigidBox& box : scene.boxes) {
-      boxes.push_back(stage.add_box(
-          {box.half_extents, box.centre, box.mass, box.friction, box.restitution}));
+      boxes.push_back(
+          stage.add_box({box.half_extents, box.centre, box.mass, box.friction, box.restitution}));
     }
     for (const PhysicalModel& model : scene.objects) {
       remember_start(model);
@@ -159,7 +159,8 @@ struct Simulation::State {
     const double fall = scene.gravity.dot(now.centre - then.centre);
     const double explained = then.velocity.squaredNorm() + 2.0 * std::max(0.0, fall);
     if (explained <= 0.0) return;
-    fastest_piece_rel = std::max(fastest_piece_rel, std::sqrt(now.velocity.squaredNorm() / explained));
+    fastest_piece_rel =
+        std::max(fastest_piece_rel, std::sqrt(now.velocity.squaredNorm() / explained));
   }
 
   // Of free fall from the highest start of an object's centre to y = 0, m/s.

@@ -24,12 +24,12 @@ struct RunOptions {
 // How one hand-over, or all of them together, changed what must not change.
 // Relative to sum m|v| and sum m|r||v| about the centre of mass.
 struct LedgerTotals {
-  double momentum_rel = 0.0;          // worst of any hand-over
-  double angular_momentum_rel = 0.0;  // worst of any hand-over
-  double energy_in_J = 0.0;           // kinetic energy that rigid bodies gave to lattices
-  double energy_out_J = 0.0;          // kinetic energy that lattices gave to rigid bodies
-  double energy_stored_J = 0.0;       // elastic energy kept while rigid, at the end
-  double energy_discarded_J = 0.0;    // vibration, all hand-overs together
+  double momentum_rel = 0.0;            // worst of any hand-over
+  double angular_momentum_rel = 0.0;    // worst of any hand-over
+  double energy_in_J = 0.0;             // kinetic energy that rigid bodies gave to lattices
+  double energy_out_J = 0.0;            // kinetic energy that lattices gave to rigid bodies
+  double energy_stored_J = 0.0;         // elastic energy kept while rigid, at the end
+  double energy_discarded_J = 0.0;      // vibration, all hand-overs together
   double energy_unaccounted_rel = 0.0;  // worst of any hand-over
 };
 
@@ -68,26 +68,26 @@ struct RunResult {
   std::string scene;
   double seconds = 0.0, tick = 0.0, wall_s = 0.0;
   std::size_t bodies = 0, points = 0, springs = 0;
-  double softening = 1.0;           // largest S in the scene
-  double object_size_m = 0.0;       // largest extent of the largest object, to scale errors
+  double softening = 1.0;      // largest S in the scene
+  double object_size_m = 0.0;  // largest extent of the largest object, to scale errors
   std::uint64_t spring_updates = 0;
   std::size_t broken_edges = 0;
   std::size_t fragments = 0;
   std::optional<double> first_break_s;
-  double flexible_share = 0.0;      // body-seconds flexible / body-seconds, pieces weighed by mass
+  double flexible_share = 0.0;  // body-seconds flexible / body-seconds, pieces weighed by mass
   std::size_t to_flexible = 0, to_rigid = 0;
   std::optional<std::size_t> missed;    // first touches that detection did not foresee
   std::optional<std::size_t> needless;  // switches to flexible without a touch
   std::vector<double> piece_masses;     // kg, descending, pieces with at least one edge
   double debris_mass = 0.0;             // kg, points without edges
   double total_mass = 0.0;              // kg
-  double fastest_piece_m_s = 0.0;   // of any piece over 0.5 % of its object's mass, ever
-  double fastest_chip_m_s = 0.0;    // of any smaller one with at least one edge
-  double impact_speed_m_s = 0.0;    // of the object's centre, had it fallen freely to the floor
+  double fastest_piece_m_s = 0.0;       // of any piece over 0.5 % of its object's mass, ever
+  double fastest_chip_m_s = 0.0;        // of any smaller one with at least one edge
+  double impact_speed_m_s = 0.0;        // of the object's centre, had it fallen freely to the floor
   // Speed of a piece (over 0.5 % of the mass) over what falling from its own start to where it is
   // explains, the worst: above 1 it got energy from other pieces, or out of nowhere.
   double fastest_piece_rel = 0.0;
-  double highest_rise_m = 0.0;      // how far any piece's centre rose above its object's start; <= 0
+  double highest_rise_m = 0.0;  // how far any piece's centre rose above its object's start; <= 0
   std::uint64_t state_hash = 0;
   LedgerTotals ledger;
   std::vector<SwitchEvent> switches;

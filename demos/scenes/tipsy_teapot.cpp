@@ -7,7 +7,7 @@
 namespace limber::demos {
 namespace {
 
-constexpr double kTableTop = 0.75;      // m
+constexpr double kTableTop = 0.75;  // m
 constexpr double kTableThickness = 0.04;
 constexpr double kEdgeBeyondCentre = 0.10;  // m, from the teapot's centre to the table's edge
 

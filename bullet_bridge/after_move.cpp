@@ -1,0 +1,200 @@
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "bullet_bridge/co_simulation_impl.h"
+#include "bullet_bridge/conversions.h"
+
+// The second half of a tick: impulses on proxies are read, poses corrected, broken pieces split,
+// calm ones frozen.
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+
+void CoSimulation::Impl::after_solve(double) {
+  for (const auto& piece : pieces_) {
+    if (piece->proxy) piece->proxy->impulse = 0.0;
+  }
+  btDispatcher& dispatcher = *world_.getDispatcher();
+  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
+    double impulse = 0.0;
+    for (int c = 0; c < manifold.getNumContacts(); ++c) {
+      impulse += manifold.getContactPoint(c).getAppliedImpulse();
+    }
+    for (const btCollisionObject* body : {manifold.getBody0(), manifold.getBody1()}) {
+      const auto found = piece_of_.find(body);
+      if (found != piece_of_.end()) found->second->proxy->impulse += impulse;
+    }
+  }
+}
+
+void CoSimulation::Impl::after_move(double dt) {
+  if (failure_) return;
+  if (stepped_lattice_) contacts_.correct_poses(dt);
+  fly_free_proxies(dt);
+  thawed_.clear();
+  if (stepped_lattice_) {
+    split_broken_pieces();
+    freeze_calm_pieces(dt);
+  }
+  step_debris(dt);
+  time_ += dt;
+  count_time(dt);
+}
+
+void CoSimulation::Impl::fly_free_proxies(double dt) {
+  for (const auto& piece : pieces_) {
+    if (!piece->proxy || piece->proxy->impulse > 0.0) continue;
+    btRigidBody& body = piece->proxy->body();
+    if (!body.isActive() || body.getNumConstraintRefs() > 0) continue;
+    if (stepped_lattice_ && contacts_.touched(body)) continue;
+    piece->proxy->fly(dt);
+  }
+}
+
+// Single points, and in an object made of cells what holds no valid cell any more: crumbs of two or
+// three points on a few bonds, which have no volume and no inertia about a line.
+bool CoSimulation::Impl::becomes_debris(std::size_t object,
+                                        std::span<const std::int32_t> points) const {
+  if (points.size() == 1) return true;
+  if (lattice_.objects[object].cells.size() == 0) return false;
+  return std::none_of(points.begin(), points.end(), [&](std::int32_t p) {
+    const auto edges = lattice_.point_edges[p];
+    return std::any_of(edges.begin(), edges.end(), [&](std::int32_t e) {
+      const auto cells = lattice_.topology.edge_cells[e];
+      return std::any_of(cells.begin(), cells.end(),
+                         [&](std::int32_t c) { return lattice_.breaking.cell_valid[c] != 0; });
+    });
+  });
+}
+
+// P and L stay: the points go on with the velocities they have. Their bonds break.
+void CoSimulation::Impl::turn_to_debris(std::span<const std::int32_t> points) {
+  std::vector<std::int32_t> bonds;
+  for (std::int32_t p : points) {
+    for (std::int32_t e : lattice_.point_edges[p]) {
+      if (!lattice_.breaking.edge_broken[e]) bonds.push_back(e);
+    }
+    lattice_.role[p] = PointRole::kIdle;
+    debris_.add(p);
+  }
+  counters_.broken_edges +=
+      break_edges(lattice_.topology, lattice_.breaking, bonds).broken_edges.size();
+}
+
+std::vector<std::vector<std::int32_t>> CoSimulation::Impl::connected_groups(const Piece& piece) {
+  const Components& all = time_operator_.pieces();
+  std::vector<std::vector<std::int32_t>> groups;
+  std::unordered_map<std::int32_t, std::size_t> group_of_label;
+  for (std::int32_t p : piece.points) {
+    const auto [found, fresh] = group_of_label.try_emplace(all.label[p], groups.size());
+    if (fresh) groups.emplace_back();
+    groups[found->second].push_back(p);
+  }
+  return groups;
+}
+
+Piece& CoSimulation::Impl::add_piece(std::size_t object, std::vector<std::int32_t> points) {
+  auto piece = std::make_unique<Piece>();
+  piece->id = next_piece_++;
+  piece->object = object;
+  piece->points = std::move(points);
+  measure(*piece, lattice_);
+  pieces_.push_back(std::move(piece));
+  return *pieces_.back();
+}
+
+void CoSimulation::Impl::split_broken_pieces() {
+  if (broken_in_tick_ == 0) return;
+  for (Piece* piece : flexible_pieces()) {
+    std::vector<std::vector<std::int32_t>> groups = connected_groups(*piece);
+    if (groups.size() == 1) {
+      measure(*piece, lattice_);  // it may have lost its weakest springs
+      continue;
+    }
+    const bool touched = piece->touched;
+    piece->points.clear();
+    for (std::vector<std::int32_t>& points : groups) {
+      if (becomes_debris(piece->object, points)) {
+        turn_to_debris(points);
+      } else {
+        add_piece(piece->object, std::move(points)).touched = touched;
+      }
+    }
+  }
+  std::erase_if(pieces_, [](const auto& piece) { return piece->points.empty(); });
+  roles_stale_ = true;
+}
+
+Calmness CoSimulation::Impl::look_at(const Piece& piece) const {
+  Calmness seen;
+  for (std::int32_t p : piece.points) {
+    seen.peak_load = std::max(seen.peak_load, lattice_.peak_load[p]);
+  }
+  seen.peak_load_before = piece.peak_load;
+  seen.rms_vibration = rms_vibration(lattice_, piece.points);
+  return seen;
+}
+
+Numbers CoSimulation::Impl::numbers_of(const Piece& piece, const Calmness& seen) const {
+  return {{"peak_load", seen.peak_load},
+          {"vibration_strain", vibration_strain(piece.strength, seen.rms_vibration)},
+          {"limit_strain", 0.5 * flexible_strain(piece.strength, settings_.switching)}};
+}
+
+void CoSimulation::Impl::freeze_calm_pieces(double dt) {
+  for (Piece* piece : flexible_pieces()) {
+    const Calmness seen = look_at(*piece);
+    piece->peak_load = seen.peak_load;
+    for (std::int32_t p : piece->points) {
+      piece->touched = piece->touched || lattice_.touched[p] != 0;
+      lattice_.touched[p] = 0;
+      lattice_.peak_load[p] = 0.0;
+    }
+    if (!switching()) continue;
+    const bool quiet = calm(piece->strength, settings_.switching, seen);
+    piece->calm_ticks = quiet ? piece->calm_ticks + 1 : 0;
+    if (piece->calm_ticks <
+        calm_ticks_needed(piece->strength, settings_.switching, piece->size, dt, piece->touched)) {
+      continue;
+    }
+    if (!piece->touched) ++counters_.needless;
+    piece->carried_load = contact_load(lattice_, piece->points, from_bullet(world_.getGravity()));
+    piece->sustained_load = piece->carried_load;
+    freeze_piece(*piece, "calm", numbers_of(*piece, seen));
+    // Bullet gives gravity once per stepSimulation; this body has missed it, should more ticks
+    // follow.
+    piece->proxy->body().applyGravity();
+  }
+}
+
+void CoSimulation::Impl::freeze_piece(Piece& piece, const std::string& cause, Numbers numbers) {
+  const HandOver books = freeze(world_, lattice_, piece.points, piece.proxy);
+  piece_of_[&piece.proxy->body()] = &piece;
+  piece.stored_J = books.elastic_J;
+  counters_.stored_J += piece.stored_J;
+  ++counters_.to_rigid;
+  set_role(piece, PointRole::kIdle);
+  switches_.push_back({time_, piece.object, piece.id, cause, std::move(numbers), books});
+}
+
+void CoSimulation::Impl::step_debris(double dt) {
+  if (debris_.size() == 0) return;
+  std::unordered_set<const btCollisionObject*> proxies;
+  for (const auto& [body, piece] : piece_of_) proxies.insert(body);
+  debris_.step(world_, lattice_, proxies, dt);
+}
+
+void CoSimulation::Impl::count_time(double dt) {
+  for (const auto& piece : pieces_) {
+    counters_.mass_seconds += piece->strength.mass * dt;
+    // Flexible in this tick: a piece frozen just now was integrated as a lattice.
+    if (piece->flexible()) counters_.flexible_mass_seconds += piece->strength.mass * dt;
+  }
+}
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

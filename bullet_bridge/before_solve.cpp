@@ -1,0 +1,290 @@
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_bridge/co_simulation_impl.h"
+#include "bullet_bridge/conversions.h"
+#include "bullet_bridge/neighbourhood.h"
+
+// The first half of a tick: Bullet knows the contacts and has not applied an impulse. What is about
+// to be loaded becomes a lattice, and the lattices are integrated with the bodies they touch.
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+namespace {
+
+double mass_of(const btCollisionObject& object) {
+  const btRigidBody* body = btRigidBody::upcast(&object);
+  if (!body || body->isStaticOrKinematicObject() || body->getInvMass() == 0) return kUnbreakable;
+  return 1.0 / body->getInvMass();
+}
+
+}  // namespace
+
+void CoSimulation::Impl::before_solve(double dt) {
+  if (failure_) return;
+  stepped_lattice_ = false;
+  broken_in_tick_ = 0;
+  for (const auto& piece : pieces_) {
+    if (piece->proxy) piece->proxy->remember();
+  }
+  try {
+    if (switching()) {
+      thaw_what_will_be_hit(dt);
+      thaw_what_lattices_hit(dt);
+      clear_unwanted_manifolds();
+    }
+    step_lattices(dt);
+  } catch (const SimulationError& error) {
+    failure_ = error.diagnostic;
+  }
+}
+
+void CoSimulation::Impl::thaw_what_will_be_hit(double dt) {
+  for (const auto& piece : pieces_) {
+    if (piece->proxy) judge_impulse(*piece, dt);
+  }
+  const btBroadphasePairArray& pairs = world_.getPairCache()->getOverlappingPairArray();
+  for (int i = 0; i < pairs.size(); ++i) {
+    const auto* a = static_cast<const btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject);
+    const auto* b = static_cast<const btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject);
+    if (!a->hasContactResponse() || !b->hasContactResponse()) continue;
+    const auto piece_a = piece_of_.find(a), piece_b = piece_of_.find(b);
+    if (piece_a != piece_of_.end()) consider_touch(*piece_a->second, *b, dt);
+    if (piece_b != piece_of_.end()) consider_touch(*piece_b->second, *a, dt);
+  }
+}
+
+void CoSimulation::Impl::consider_touch(Piece& piece, const btCollisionObject& other, double dt) {
+  if (piece.flexible()) return;
+  const double limit = flexible_strain(piece.strength, settings_.switching);
+  const double partner = mass_of(other);
+  const btRigidBody& body = piece.proxy->body();
+  // Most pairs rest on one another: a bound on the speed spares them the exact query.
+  const double bound = largest_closing_speed(body, other, dt);
+  if (impact_strain(piece.strength, bound, partner) <= limit) return;
+  const std::optional<PredictedTouch> touch = predict_touch(body, other, dt);
+  if (!touch) return;
+  const double strain = impact_strain(piece.strength, touch->closing_speed, partner);
+  if (strain <= limit || !material_meets(piece, other, limit, *touch, dt)) return;
+  thaw_piece(piece, "touch",
+             {{"closing_m_s", touch->closing_speed},
+              {"gap_m", touch->gap},
+              {"strain", strain},
+              {"limit_strain", limit}});
+}
+
+// Hulls are larger than the material in them, and the prediction allows for turning: do points
+// really meet within the tick? Where only the hulls of two proxies do, Bullet is told to let them
+// pass.
+bool CoSimulation::Impl::material_meets(Piece& piece, const btCollisionObject& other, double limit,
+                                        const PredictedTouch& touch, double dt) {
+  const auto partner = piece_of_.find(&other);
+  if (partner == piece_of_.end()) {
+    return touch.gap <= 0.0 || !other.getCollisionShape()->isConvex() ||
+           points_reach(piece.proxy->body(), piece.proxy->local(), other, dt);
+  }
+  piece.proxy->write_points(lattice_, piece.points);
+  partner->second->proxy->write_points(lattice_, partner->second->points);
+  const double closing = closing_speed(lattice_, piece.points, partner->second->points, dt);
+  if (impact_strain(piece.strength, closing, mass_of(other)) > limit) return true;
+  passing_.emplace_back(&piece.proxy->body(), &other);
+  return false;
+}
+
+// What no prediction foresaw, and what builds up slowly: the impulses of the last tick. What its
+// contacts bore when it became rigid is in its shape already; more strains it, less relaxes it.
+void CoSimulation::Impl::judge_impulse(Piece& piece, double dt) {
+  const double impulse = piece.proxy->impulse;
+  const double limit = flexible_strain(piece.strength, settings_.switching);
+  piece.sustained_load =
+      averaged_load(piece.sustained_load, impulse / dt, dt, settings_.switching.load_time);
+  const double change = std::abs(piece.sustained_load - piece.carried_load);
+  const double sustained = sustained_strain(piece.strength, change, piece.size);
+  // A body at rest receives m g dt a tick, and as much again when its contacts chatter.
+  const double weight = 2.0 * world_.getGravity().length() * dt;
+  const double jump = std::max(0.0, impulse / piece.strength.mass - weight);
+  const double sudden = impact_strain(piece.strength, jump, kUnbreakable);
+  if (std::max(sustained, sudden) <= limit) return;
+  if (sudden > limit) ++counters_.missed;
+  thaw_piece(
+      piece, sudden > limit ? "missed touch" : "sustained load",
+      {{"impulse_N_s", impulse}, {"strain", std::max(sustained, sudden)}, {"limit_strain", limit}});
+}
+
+// A proxy that a flexible piece is about to hit turns flexible as well; that may reach others.
+void CoSimulation::Impl::thaw_what_lattices_hit(double dt) {
+  for (std::size_t before = pieces_.size() + 1, now = 0; now != before;) {
+    before = flexible_pieces().size();
+    for (Piece* flexible : flexible_pieces()) {
+      for (const auto* body : bodies_within_reach(world_, lattice_, flexible->points, dt)) {
+        const auto found = piece_of_.find(body);
+        if (found != piece_of_.end()) consider_lattice_hit(*flexible, *found->second, dt);
+      }
+    }
+    now = flexible_pieces().size();
+  }
+}
+
+void CoSimulation::Impl::consider_lattice_hit(const Piece& flexible, Piece& piece, double dt) {
+  const double limit = flexible_strain(piece.strength, settings_.switching);
+  const RigidMotion mine = piece.proxy->motion();
+  const RigidMotion other = rigid_motion(lattice_.motion, lattice_.mass, flexible.points);
+  const double bound = (mine.velocity - other.velocity).norm() +
+                       mine.angular_velocity.norm() * piece.size +
+                       other.angular_velocity.norm() * flexible.size +
+                       2.0 * rms_vibration(lattice_, flexible.points);
+  if (impact_strain(piece.strength, bound, flexible.strength.mass) <= limit) return;
+  piece.proxy->write_points(lattice_, piece.points);
+  const double closing = closing_speed(lattice_, piece.points, flexible.points, dt);
+  const double strain = impact_strain(piece.strength, closing, flexible.strength.mass);
+  if (strain <= limit) return;
+  thaw_piece(piece, "touch",
+             {{"closing_m_s", closing}, {"strain", strain}, {"limit_strain", limit}});
+}
+
+void CoSimulation::Impl::thaw_piece(Piece& piece, const std::string& cause, Numbers numbers) {
+  const HandOver books = thaw(lattice_, piece.points, *piece.proxy);
+  switches_.push_back({time_, piece.object, piece.id, cause, std::move(numbers), books});
+  ++counters_.to_flexible;
+  counters_.stored_J -= piece.stored_J;
+  piece.stored_J = 0.0;
+  piece.calm_ticks = 0;
+  piece.touched = false;
+  set_role(piece, PointRole::kDynamic);
+  // The body leaves the world when bodies may be removed; until then nothing collides with it.
+  btRigidBody& body = piece.proxy->body();
+  body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE);
+  piece_of_.erase(&body);
+  thawed_.push_back(std::move(piece.proxy));
+}
+
+// Contacts of bodies that are lattices now, and of hulls that may pass.
+void CoSimulation::Impl::clear_unwanted_manifolds() {
+  if (thawed_.empty() && passing_.empty()) return;
+  const auto may_pass = [&](const btCollisionObject* a, const btCollisionObject* b) {
+    return std::any_of(passing_.begin(), passing_.end(), [&](const auto& pair) {
+      return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
+    });
+  };
+  btDispatcher& dispatcher = *world_.getDispatcher();
+  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
+    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
+    const btCollisionObject* a = manifold.getBody0();
+    const btCollisionObject* b = manifold.getBody1();
+    if (!a->hasContactResponse() || !b->hasContactResponse() || may_pass(a, b)) {
+      manifold.clearManifold();
+    }
+  }
+  passing_.clear();
+}
+
+void CoSimulation::Impl::set_role(const Piece& piece, PointRole role) {
+  for (std::int32_t p : piece.points) lattice_.role[p] = role;
+  roles_stale_ = true;
+}
+
+std::vector<Piece*> CoSimulation::Impl::flexible_pieces() const {
+  std::vector<Piece*> flexible;
+  for (const auto& piece : pieces_) {
+    if (piece->flexible()) flexible.push_back(piece.get());
+  }
+  return flexible;
+}
+
+void CoSimulation::Impl::refresh_roles(const std::vector<Piece*>& carried) {
+  const bool carried_changed = !carried.empty() || !lattice_.carried_points.empty();
+  for (std::int32_t p : lattice_.carried_points) {
+    if (lattice_.role[p] == PointRole::kCarried) lattice_.role[p] = PointRole::kIdle;
+  }
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    carried[i]->proxy->write_points(lattice_, carried[i]->points);
+    for (std::int32_t p : carried[i]->points) {
+      lattice_.role[p] = PointRole::kCarried;
+      lattice_.carrier[p] = static_cast<std::int32_t>(i);
+    }
+  }
+  if (roles_stale_) {
+    rebuild_active(lattice_);
+    time_operator_.roles_changed();
+  } else if (carried_changed) {
+    rebuild_carried(lattice_);
+    time_operator_.carried_changed();
+  }
+  roles_stale_ = false;
+}
+
+void CoSimulation::Impl::refuse_step(double substeps) const {
+  const auto stiffest = std::min_element(
+      lattice_.objects.begin(), lattice_.objects.end(),
+      [](const auto& a, const auto& b) { return a.largest_step < b.largest_step; });
+  throw SimulationError(
+      {stiffest->authored.name,
+       "a tick would need " + std::to_string(std::llround(substeps)) + " substeps",
+       "soften the material, coarsen the lattice or raise most_substeps (" +
+           std::to_string(settings_.most_substeps) + ")"});
+}
+
+CoSimulation::Impl::Surroundings CoSimulation::Impl::surroundings_of(
+    const std::vector<Piece*>& flexible, double dt) const {
+  std::vector<const btCollisionObject*> near;
+  for (const Piece* piece : flexible) {
+    const auto reached = bodies_within_reach(world_, lattice_, piece->points, dt);
+    near.insert(near.end(), reached.begin(), reached.end());
+  }
+  std::sort(near.begin(), near.end(), [](const btCollisionObject* a, const btCollisionObject* b) {
+    return a->getWorldArrayIndex() < b->getWorldArrayIndex();
+  });
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  Surroundings surroundings;
+  for (const btCollisionObject* object : near) {
+    const auto found = piece_of_.find(object);
+    if (found == piece_of_.end()) {
+      surroundings.bodies.push_back(object);
+    } else {
+      surroundings.carried.push_back(found->second);
+    }
+  }
+  return surroundings;
+}
+
+int CoSimulation::Impl::substeps_for(double dt) const {
+  const double wanted = std::ceil(dt / (time_operator_.largest_step() * settings_.step_scale));
+  if (wanted > settings_.most_substeps) refuse_step(wanted);
+  return std::max(1, static_cast<int>(wanted));
+}
+
+void CoSimulation::Impl::step_lattices(double dt) {
+  const std::vector<Piece*> flexible = flexible_pieces();
+  if (flexible.empty()) return;
+  const Surroundings surroundings = surroundings_of(flexible, dt);
+  refresh_roles(surroundings.carried);
+  std::vector<CarriedPiece> carried;
+  for (const Piece* piece : surroundings.carried) {
+    carried.push_back({&piece->proxy->body(), piece->points, piece->proxy->local()});
+  }
+  contacts_.begin_tick(world_, lattice_, surroundings.bodies, carried);
+  const int substeps = substeps_for(dt);
+  const StepReport report =
+      time_operator_.advance(substeps, dt / substeps, from_bullet(world_.getGravity()), &contacts_);
+  contacts_.write_velocities(world_, dt);
+  stepped_lattice_ = true;
+  note(report);
+}
+
+void CoSimulation::Impl::note(const StepReport& report) {
+  broken_in_tick_ = report.broken_edges;
+  counters_.spring_updates += report.spring_updates;
+  counters_.broken_edges += report.broken_edges;
+  for (const BreakEvent& event : report.breaks) {
+    const std::int32_t point = lattice_.springs[event.edge].a;
+    breaks_.push_back(
+        {time_ + event.time, static_cast<std::size_t>(lattice_.point_object[point]), event.where});
+  }
+}
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

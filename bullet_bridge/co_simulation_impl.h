@@ -1,0 +1,103 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "bullet_bridge/co_simulation.h"
+#include "bullet_bridge/contact_solver.h"
+#include "bullet_bridge/debris.h"
+#include "bullet_bridge/piece.h"
+#include "bullet_bridge/solver_decorator.h"
+#include "bullet_bridge/touch_prediction.h"
+#include "core/operators/time_operator.h"
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+
+// What decided a change of representation, by name.
+using Numbers = std::vector<std::pair<std::string, double>>;
+
+// The state behind CoSimulation. Its stages stand in before_solve.cpp and after_move.cpp, in the
+// order in which a tick runs them.
+class CoSimulation::Impl : public TickHooks {
+ public:
+  Impl(btDiscreteDynamicsWorld& world, const CoSimulationSettings& settings)
+      : world_(world), settings_(settings), decorator_(world, *this) {}
+
+  void before_solve(double dt) override;
+  void after_solve(double dt) override;
+  void after_move(double dt) override;
+
+  std::size_t add(PhysicalModel model);
+  void sync_points() const;
+  std::vector<std::int32_t> points_of_object(std::size_t object) const;
+
+  btDiscreteDynamicsWorld& world_;
+  CoSimulationSettings settings_;
+  // Rigid pieces' points are written when somebody asks for them.
+  mutable Lattice lattice_;
+  TimeOperator time_operator_{lattice_};
+  ContactSolver contacts_;
+  Debris debris_;
+  std::vector<std::unique_ptr<Piece>> pieces_;                     // ascending by id
+  std::unordered_map<const btCollisionObject*, Piece*> piece_of_;  // look-ups only
+  std::vector<std::pair<const btCollisionObject*, const btCollisionObject*>> passing_;
+  std::vector<std::unique_ptr<RigidProxy>> thawed_;  // to be removed when bodies have moved
+  std::size_t next_piece_ = 0;
+  double time_ = 0.0;
+  bool roles_stale_ = true;
+  bool stepped_lattice_ = false;
+  std::size_t broken_in_tick_ = 0;
+  std::optional<Diagnostic> failure_;
+  Counters counters_;
+  std::vector<SwitchRecord> switches_;
+  std::vector<BreakRecord> breaks_;
+
+ private:
+  // Stages of a tick, in order.
+  void thaw_what_will_be_hit(double dt);
+  void thaw_what_lattices_hit(double dt);
+  void step_lattices(double dt);
+  void fly_free_proxies(double dt);
+  void split_broken_pieces();
+  void freeze_calm_pieces(double dt);
+  void step_debris(double dt);
+  void count_time(double dt);
+
+  // What lattices may touch in this tick, in the order of the world.
+  struct Surroundings {
+    std::vector<const btCollisionObject*> bodies;
+    std::vector<Piece*> carried;  // rigid pieces
+  };
+  Surroundings surroundings_of(const std::vector<Piece*>& flexible, double dt) const;
+  int substeps_for(double dt) const;
+  [[noreturn]] void refuse_step(double substeps) const;
+  void note(const StepReport& report);
+  bool switching() const { return settings_.representation == Representation::kSwitching; }
+  void consider_touch(Piece& piece, const btCollisionObject& other, double dt);
+  void consider_lattice_hit(const Piece& flexible, Piece& proxy, double dt);
+  bool material_meets(Piece& piece, const btCollisionObject& other, double limit,
+                      const PredictedTouch& touch, double dt);
+  void thaw_piece(Piece& piece, const std::string& cause, Numbers numbers);
+  void freeze_piece(Piece& piece, const std::string& cause, Numbers numbers);
+  void clear_unwanted_manifolds();
+  void refresh_roles(const std::vector<Piece*>& carried);
+  void set_role(const Piece& piece, PointRole role);
+  std::vector<Piece*> flexible_pieces() const;
+  std::vector<std::vector<std::int32_t>> connected_groups(const Piece& piece);
+  bool becomes_debris(std::size_t object, std::span<const std::int32_t> points) const;
+  void turn_to_debris(std::span<const std::int32_t> points);
+  Piece& add_piece(std::size_t object, std::vector<std::int32_t> points);
+  void judge_impulse(Piece& piece, double dt);
+  Calmness look_at(const Piece& piece) const;
+  Numbers numbers_of(const Piece& piece, const Calmness& seen) const;
+
+  SolverDecorator decorator_;  // last: attaches when all is ready, detaches first
+};
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet
