@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/dynamics/rigid_motion.h"
 #include "demos/scenes/scenes.h"
@@ -41,7 +42,7 @@ Scene build(const ParameterValues& values) {
   TeapotOptions options;
   options.density = values.at("density");
   options.softening = values.at("softening");
-  options.seed = static_cast<std::uint64_t>(values.at("seed"));
+  options.seed = static_cast<std::uint64_t>(std::llround(values.at("seed")));
   PhysicalModel teapot = teapot_model(options);
   place(teapot, Mat3::Identity(), {0.0, values.at("height") - lowest_point(teapot), 0.0});
   set_in_motion(teapot, {values.at("speed"), 0.0, 0.0}, {0.0, 0.0, -values.at("spin")});
