@@ -83,7 +83,7 @@ struct RunResult {
   double total_mass = 0.0;              // kg
   double fastest_piece_m_s = 0.0;       // of any piece over 0.5 % of its object's mass, ever
   double fastest_chip_m_s = 0.0;        // of any smaller one with at least one edge
-  double impact_speed_m_s = 0.0;        // of the object's centre, had it fallen freely to the floor
+  double impact_speed_m_s = 0.0;        // of its highest point, had that fallen freely to the floor
   // Speed of a piece (over 0.5 % of the mass) over what falling from its own start to where it is
   // explains, the worst: above 1 it got energy from other pieces, or out of nowhere.
   double fastest_piece_rel = 0.0;
