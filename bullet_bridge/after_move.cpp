@@ -36,13 +36,11 @@ void CoSimulation::Impl::after_move(double dt) {
   if (stepped_lattice_) contacts_.correct_poses(dt);
   fly_free_proxies(dt);
   thawed_.clear();
-  if (stepped_lattice_) {
-    split_broken_pieces();
-    freeze_calm_pieces(dt);
-  }
+  if (stepped_lattice_) split_broken_pieces();
+  count_time(dt);  // before freezing: a piece that calms now was a lattice for the whole tick
+  if (stepped_lattice_) freeze_calm_pieces(dt);
   step_debris(dt);
   time_ += dt;
-  count_time(dt);
 }
 
 void CoSimulation::Impl::fly_free_proxies(double dt) {
@@ -191,7 +189,6 @@ void CoSimulation::Impl::step_debris(double dt) {
 void CoSimulation::Impl::count_time(double dt) {
   for (const auto& piece : pieces_) {
     counters_.mass_seconds += piece->strength.mass * dt;
-    // Flexible in this tick: a piece frozen just now was integrated as a lattice.
     if (piece->flexible()) counters_.flexible_mass_seconds += piece->strength.mass * dt;
   }
 }
