@@ -37,6 +37,7 @@ void CoSimulation::Impl::after_move(double dt) {
   fly_free_proxies(dt);
   thawed_.clear();
   if (stepped_lattice_) split_broken_pieces();
+  name_pieces_of_breaks();
   count_time(dt);  // before freezing: a piece that calms now was a lattice for the whole tick
   if (stepped_lattice_) freeze_calm_pieces(dt);
   step_debris(dt);
@@ -77,10 +78,12 @@ void CoSimulation::Impl::turn_to_debris(std::span<const std::int32_t> points) {
       if (!lattice_.breaking.edge_broken[e]) bonds.push_back(e);
     }
     lattice_.role[p] = PointRole::kIdle;
-    debris_.add(p);
+    if (lattice_.inverse_mass[p] > 0.0) debris_.add(p);  // a pinned one stays where it is
   }
-  counters_.broken_edges +=
-      break_edges(lattice_.topology, lattice_.breaking, bonds).broken_edges.size();
+  counters_.particles += points.size();
+  const BreakingResult broken = break_edges(lattice_.topology, lattice_.breaking, bonds);
+  boundary_.update(lattice_.topology, broken);
+  counters_.broken_edges += broken.broken_edges.size();
 }
 
 std::vector<std::vector<std::int32_t>> CoSimulation::Impl::connected_groups(const Piece& piece) {
@@ -113,18 +116,41 @@ void CoSimulation::Impl::split_broken_pieces() {
       measure(*piece, lattice_);  // it may have lost its weakest springs
       continue;
     }
-    const bool touched = piece->touched;
+    split(*piece, std::move(groups));
     piece->points.clear();
-    for (std::vector<std::int32_t>& points : groups) {
-      if (becomes_debris(piece->object, points)) {
-        turn_to_debris(points);
-      } else {
-        add_piece(piece->object, std::move(points)).touched = touched;
-      }
-    }
   }
   std::erase_if(pieces_, [](const auto& piece) { return piece->points.empty(); });
   roles_stale_ = true;
+}
+
+void CoSimulation::Impl::split(const Piece& piece,
+                               std::vector<std::vector<std::int32_t>> groups) {
+  SplitRecord record{.time = time_, .object = piece.object, .piece = piece.id};
+  for (std::vector<std::int32_t>& points : groups) {
+    if (becomes_debris(piece.object, points)) {
+      turn_to_debris(points);
+      record.particles += points.size();
+    } else {
+      Piece& part = add_piece(piece.object, std::move(points));
+      part.touched = piece.touched;
+      record.parts.push_back(part.id);
+    }
+  }
+  splits_.push_back(std::move(record));
+}
+
+void CoSimulation::Impl::name_pieces_of_breaks() {
+  const std::size_t first = breaks_.size() - break_points_.size();
+  for (std::size_t i = 0; i < break_points_.size(); ++i) {
+    for (const auto& piece : pieces_) {
+      if (piece->object != breaks_[first + i].object) continue;
+      const std::vector<std::int32_t>& points = piece->points;
+      if (!std::binary_search(points.begin(), points.end(), break_points_[i])) continue;
+      breaks_[first + i].piece = piece->id;
+      break;
+    }
+  }
+  break_points_.clear();
 }
 
 Calmness CoSimulation::Impl::look_at(const Piece& piece) const {
@@ -152,7 +178,7 @@ void CoSimulation::Impl::freeze_calm_pieces(double dt) {
       lattice_.touched[p] = 0;
       lattice_.peak_load[p] = 0.0;
     }
-    if (!switching()) continue;
+    if (!switching() || piece->pinned) continue;
     const bool quiet = calm(piece->strength, settings_.switching, seen);
     piece->calm_ticks = quiet ? piece->calm_ticks + 1 : 0;
     if (piece->calm_ticks <
@@ -175,6 +201,7 @@ void CoSimulation::Impl::freeze_piece(Piece& piece, const std::string& cause, Nu
   piece.stored_J = books.elastic_J;
   counters_.stored_J += piece.stored_J;
   ++counters_.to_rigid;
+  if (piece.proxy->regularised()) ++counters_.regularised;
   set_role(piece, PointRole::kIdle);
   switches_.push_back({time_, piece.object, piece.id, cause, std::move(numbers), books});
 }
@@ -183,7 +210,8 @@ void CoSimulation::Impl::step_debris(double dt) {
   if (debris_.size() == 0) return;
   std::unordered_set<const btCollisionObject*> proxies;
   for (const auto& [body, piece] : piece_of_) proxies.insert(body);
-  debris_.step(world_, lattice_, proxies, dt);
+  counters_.retired_mass +=
+      debris_.step(world_, lattice_, proxies, dt, settings_.debris_lifetime);
 }
 
 void CoSimulation::Impl::count_time(double dt) {

@@ -28,6 +28,7 @@ void CoSimulation::Impl::before_solve(double dt) {
   if (failure_) return;
   stepped_lattice_ = false;
   broken_in_tick_ = 0;
+  break_points_.clear();
   for (const auto& piece : pieces_) {
     if (piece->proxy) piece->proxy->remember();
   }
@@ -37,6 +38,7 @@ void CoSimulation::Impl::before_solve(double dt) {
       thaw_what_lattices_hit(dt);
       clear_unwanted_manifolds();
     }
+    blow_on_proxies(dt);
     step_lattices(dt);
   } catch (const SimulationError& error) {
     failure_ = error.diagnostic;
@@ -102,7 +104,7 @@ void CoSimulation::Impl::judge_impulse(Piece& piece, double dt) {
   const double limit = flexible_strain(piece.strength, settings_.switching);
   piece.sustained_load =
       averaged_load(piece.sustained_load, impulse / dt, dt, settings_.switching.load_time);
-  const double change = std::abs(piece.sustained_load - piece.carried_load);
+  const double change = std::abs(piece.sustained_load - piece.carried_load) + piece.air_load;
   const double sustained = sustained_strain(piece.strength, change, piece.size);
   // A body at rest receives m g dt a tick, and as much again when its contacts chatter.
   const double weight = 2.0 * world_.getGravity().length() * dt;
@@ -144,6 +146,24 @@ void CoSimulation::Impl::consider_lattice_hit(const Piece& flexible, Piece& piec
   if (strain <= limit) return;
   thaw_piece(piece, "touch",
              {{"closing_m_s", closing}, {"strain", strain}, {"limit_strain", limit}});
+}
+
+// A proxy feels the wind that its lattice would. What fell asleep wakes when the air bears a tenth
+// of its weight.
+void CoSimulation::Impl::blow_on_proxies(double dt) {
+  constexpr double kWakingShare = 0.1;
+  if (!environment_.air) return;
+  const double weight_per_mass = world_.getGravity().length();
+  for (const auto& piece : pieces_) {
+    if (!piece->proxy || !piece->proxy->feels_air()) continue;
+    RigidProxy& proxy = *piece->proxy;
+    const double waking = kWakingShare * piece->strength.mass * weight_per_mass;
+    if (!proxy.body().isActive() && proxy.air_force(*environment_.air, time_) > waking) {
+      proxy.body().activate();
+    }
+    piece->air_load =
+        proxy.body().isActive() ? proxy.feel_air(*environment_.air, time_, dt) : 0.0;
+  }
 }
 
 void CoSimulation::Impl::thaw_piece(Piece& piece, const std::string& cause, Numbers numbers) {
@@ -268,8 +288,10 @@ void CoSimulation::Impl::step_lattices(double dt) {
   }
   contacts_.begin_tick(world_, lattice_, surroundings.bodies, carried);
   const int substeps = substeps_for(dt);
+  environment_.gravity = from_bullet(world_.getGravity());
+  time_operator_.set_time(time_);
   const StepReport report =
-      time_operator_.advance(substeps, dt / substeps, from_bullet(world_.getGravity()), &contacts_);
+      time_operator_.advance(substeps, dt / substeps, environment_, &contacts_);
   contacts_.write_velocities(world_, dt);
   stepped_lattice_ = true;
   note(report);
@@ -280,9 +302,11 @@ void CoSimulation::Impl::note(const StepReport& report) {
   counters_.spring_updates += report.spring_updates;
   counters_.broken_edges += report.broken_edges;
   for (const BreakEvent& event : report.breaks) {
-    const std::int32_t point = lattice_.springs[event.edge].a;
-    breaks_.push_back(
-        {time_ + event.time, static_cast<std::size_t>(lattice_.point_object[point]), event.where});
+    const LatticeObject& object = lattice_.objects[event.object];
+    breaks_.push_back({event.time, static_cast<std::size_t>(event.object), event.where,
+                       event.edge - object.edges.begin,
+                       event.cell < 0 ? -1 : event.cell - object.cells.begin, {}});
+    break_points_.push_back(lattice_.springs[event.edge].a);
   }
 }
 

@@ -3,6 +3,8 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <algorithm>
+
 #include "bullet_bridge/co_simulation_impl.h"
 #include "core/storage/state_hash.h"
 
@@ -10,9 +12,16 @@ namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
 std::size_t CoSimulation::Impl::add(PhysicalModel model) {
+  const bool pinned = std::any_of(model.points.begin(), model.points.end(),
+                                  [](const PointAttributes& point) { return point.pinned; });
+  if (pinned && settings_.representation == Representation::kAlwaysRigid) {
+    throw InputError({model.name + ": points", "pinned points hold it, and it is to be always rigid",
+                      "unpin them, or simulate it switching or always flexible"});
+  }
   const std::size_t object = add_object(lattice_, std::move(model));
   rebuild_active(lattice_);
   time_operator_.roles_changed();
+  boundary_.reset(lattice_.breaking);
   Piece whole;
   whole.object = object;
   whole.points = points_of_object(object);
@@ -24,7 +33,7 @@ std::size_t CoSimulation::Impl::add(PhysicalModel model) {
     Piece& piece = add_piece(object, std::move(points));
     const Calmness seen = look_at(piece);
     const bool rigid = settings_.representation == Representation::kAlwaysRigid ||
-                       (switching() && calm(piece.strength, settings_.switching, seen));
+                       (switching() && !piece.pinned && calm(piece.strength, settings_.switching, seen));
     if (rigid) freeze_piece(piece, "start", numbers_of(piece, seen));
   }
   roles_stale_ = true;
@@ -51,9 +60,23 @@ CoSimulation::~CoSimulation() = default;
 
 std::size_t CoSimulation::add(PhysicalModel model) { return impl_->add(std::move(model)); }
 
+void CoSimulation::set_air(std::optional<Air> air) {
+  Environment changed = impl_->environment_;
+  changed.air = std::move(air);
+  require_valid(changed);
+  impl_->environment_ = std::move(changed);
+}
+
+const std::optional<Air>& CoSimulation::air() const { return impl_->environment_.air; }
+
 PhysicalModel CoSimulation::model(std::size_t object) const {
   impl_->sync_points();
   return extract_model(impl_->lattice_, object);
+}
+
+SurfaceModel CoSimulation::surface(std::size_t object) const {
+  const Lattice& lattice = impl_->lattice_;
+  return impl_->boundary_.surface(model(object), lattice.topology, lattice.objects[object].faces);
 }
 
 const std::optional<Diagnostic>& CoSimulation::failure() const { return impl_->failure_; }
@@ -65,6 +88,7 @@ std::vector<PieceView> CoSimulation::pieces() const {
   std::vector<PieceView> views;
   for (const auto& piece : impl_->pieces_) {
     PieceView view;
+    view.id = piece->id;
     view.object = piece->object;
     view.flexible = piece->flexible();
     view.motion = rigid_motion(impl_->lattice_.motion, impl_->lattice_.mass, piece->points);
@@ -105,6 +129,7 @@ std::pair<Mat3, Vec3> CoSimulation::placement(std::size_t object) const {
 const Counters& CoSimulation::counters() const { return impl_->counters_; }
 const std::vector<SwitchRecord>& CoSimulation::switches() const { return impl_->switches_; }
 const std::vector<BreakRecord>& CoSimulation::breaks() const { return impl_->breaks_; }
+const std::vector<SplitRecord>& CoSimulation::splits() const { return impl_->splits_; }
 
 std::uint64_t CoSimulation::state_hash() const {
   impl_->sync_points();

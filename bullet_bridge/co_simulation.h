@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,8 +11,10 @@
 #include "bullet_bridge/hand_over.h"
 #include "bullet_bridge/precision.h"
 #include "bullet_bridge/switch_policy.h"
+#include "core/environment/environment.h"
 #include "core/model/errors.h"
 #include "core/model/physical_model.h"
+#include "core/model/surface_model.h"
 
 class btDiscreteDynamicsWorld;
 
@@ -29,6 +32,9 @@ struct CoSimulationSettings {
   SwitchSettings switching;
   double step_scale = 1.0;     // (0, 1]: factor on the automatically chosen substep
   int most_substeps = 100000;  // a tick that would need more is refused by name
+  // How long particles (points that lost all their edges) live, s. Then they stay where they are and
+  // nothing moves them any more; their mass is counted as retired.
+  double debris_lifetime = std::numeric_limits<double>::infinity();
 };
 
 // One change of representation with what decided it.
@@ -41,14 +47,28 @@ struct SwitchRecord {
   HandOver books;
 };
 
+// A spring that bore too much. What followed from it is in the model.
 struct BreakRecord {
   double time = 0.0;  // s
   std::size_t object = 0;
-  Vec3 where;  // m
+  Vec3 where;              // m
+  std::int32_t edge = 0;   // of the object
+  std::int32_t cell = -1;  // of the object: the first one it took with it; -1: none
+  std::optional<std::size_t> piece;  // that its first end belongs to after the tick; none: debris
+};
+
+// A piece that came apart.
+struct SplitRecord {
+  double time = 0.0;  // s, end of the tick
+  std::size_t object = 0;
+  std::size_t piece = 0;           // what it was
+  std::vector<std::size_t> parts = {};  // the pieces it became
+  std::size_t particles = 0;       // and points that became debris
 };
 
 // One connected piece as it is now.
 struct PieceView {
+  std::size_t id = 0;  // counts up over the whole simulation; never used again
   std::size_t object = 0;
   bool flexible = false;
   RigidMotion motion;
@@ -62,6 +82,9 @@ struct Counters {
   std::size_t to_rigid = 0;
   std::size_t missed = 0;    // touches that no prediction foresaw and whose load was over the limit
   std::size_t needless = 0;  // turned flexible and back without having been touched
+  std::size_t particles = 0;    // points that lost all their edges, so far
+  double retired_mass = 0.0;    // kg, of particles that outlived debris_lifetime
+  std::size_t regularised = 0;  // bodies whose points lie on a line and got a moment about it
   double flexible_mass_seconds = 0.0;  // kg s
   double mass_seconds = 0.0;           // kg s, of all pieces
   double stored_J = 0.0;               // elastic energy in rigid pieces now
@@ -90,11 +113,20 @@ class CoSimulation {
   CoSimulation& operator=(const CoSimulation&) = delete;
 
   // Adds an object where its points are, with their velocities. Not during a step. Returns its
-  // index. Throws InputError naming what is wrong with the model.
+  // index. What holds a pinned point stays flexible. Throws InputError naming what is wrong with the
+  // model, or that it is pinned and kAlwaysRigid is asked for.
   std::size_t add(PhysicalModel model);
+
+  // The air that all faces with a drag coefficient feel, in either representation. None at first.
+  // Change the wind between steps; its animation goes by the simulation's time. Throws InputError.
+  void set_air(std::optional<Air> air);
+  const std::optional<Air>& air() const;
 
   // The object as it is now: positions, velocities, breaks. Can be edited, glued and added again.
   PhysicalModel model(std::size_t object) const;
+
+  // What is seen of it: boundary() of model(), kept up to date at the cost of what breaks.
+  SurfaceModel surface(std::size_t object) const;
 
   // Why the simulation of the lattices stopped, if it did; ask after every stepSimulation().
   // (Bullet cannot be left by an exception in the middle of a step.)
@@ -111,6 +143,7 @@ class CoSimulation {
   const Counters& counters() const;
   const std::vector<SwitchRecord>& switches() const;
   const std::vector<BreakRecord>& breaks() const;
+  const std::vector<SplitRecord>& splits() const;
 
   // Hash of every bit of state, Bullet's bodies included.
   std::uint64_t state_hash() const;

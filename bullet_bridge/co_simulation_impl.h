@@ -26,7 +26,9 @@ using Numbers = std::vector<std::pair<std::string, double>>;
 class CoSimulation::Impl : public TickHooks {
  public:
   Impl(btDiscreteDynamicsWorld& world, const CoSimulationSettings& settings)
-      : world_(world), settings_(settings), decorator_(world, *this) {}
+      : world_(world), settings_(settings), decorator_(world, *this) {
+    time_operator_.keep_boundary(&boundary_);
+  }
 
   void before_solve(double dt) override;
   void after_solve(double dt) override;
@@ -41,6 +43,8 @@ class CoSimulation::Impl : public TickHooks {
   // Rigid pieces' points are written when somebody asks for them.
   mutable Lattice lattice_;
   TimeOperator time_operator_{lattice_};
+  Environment environment_;
+  BoundaryTracker boundary_;
   ContactSolver contacts_;
   Debris debris_;
   std::vector<std::unique_ptr<Piece>> pieces_;                     // ascending by id
@@ -56,14 +60,19 @@ class CoSimulation::Impl : public TickHooks {
   Counters counters_;
   std::vector<SwitchRecord> switches_;
   std::vector<BreakRecord> breaks_;
+  std::vector<std::int32_t> break_points_;  // first ends of the edges that broke in this tick
+  std::vector<SplitRecord> splits_;
 
  private:
   // Stages of a tick, in order.
   void thaw_what_will_be_hit(double dt);
   void thaw_what_lattices_hit(double dt);
+  void blow_on_proxies(double dt);
   void step_lattices(double dt);
   void fly_free_proxies(double dt);
   void split_broken_pieces();
+  void split(const Piece& piece, std::vector<std::vector<std::int32_t>> groups);
+  void name_pieces_of_breaks();
   void freeze_calm_pieces(double dt);
   void step_debris(double dt);
   void count_time(double dt);

@@ -41,42 +41,54 @@ Vec3 velocity_after_hit(const Vec3& relative, const Vec3& normal, double frictio
 
 }  // namespace
 
-void Debris::step(btDiscreteDynamicsWorld& world, Lattice& lattice,
-                  const std::unordered_set<const btCollisionObject*>& ignored, double dt) {
-  const Vec3 gravity = from_bullet(world.getGravity());
+double Debris::step(btDiscreteDynamicsWorld& world, Lattice& lattice,
+                    const std::unordered_set<const btCollisionObject*>& ignored, double dt,
+                    double lifetime) {
+  double retired = 0.0;
   for (Particle& particle : points_) {
-    if (particle.resting) continue;
-    PointMotion& point = lattice.motion[particle.point];
-    const Vec3 velocity = point.velocity + gravity * dt;
-    const Vec3 target = point.position + 0.5 * dt * (point.velocity + velocity);
-    FirstHit hit(to_bullet(point.position), to_bullet(target), ignored);
-    world.rayTest(hit.m_rayFromWorld, hit.m_rayToWorld, hit);
-    if (!hit.hasHit()) {
-      point = {target, velocity};
-      continue;
-    }
-    const Vec3 normal = from_bullet(hit.m_hitNormalWorld).normalized();
-    auto* body = const_cast<btRigidBody*>(btRigidBody::upcast(hit.m_collisionObject));
-    const bool movable = body && !body->isStaticOrKinematicObject();
-    Vec3 ground = Vec3::Zero();
-    Vec3 arm = Vec3::Zero();
-    if (body) {
-      arm = from_bullet(hit.m_hitPointWorld - body->getCenterOfMassPosition());
-      ground = from_bullet(body->getVelocityInLocalPoint(to_bullet(arm)));
-    }
-    const double friction =
-        hit.m_collisionObject->getFriction() *
-        lattice.objects[lattice.point_object[particle.point]].authored.object.friction;
-    const Vec3 after = ground + velocity_after_hit(velocity - ground, normal, friction);
-    if (movable) {
-      body->activate();
-      body->applyImpulse(to_bullet(lattice.mass[particle.point] * (velocity - after)),
-                         to_bullet(arm));
-    }
-    particle.resting = !movable && after.norm() < kRestSpeed;
-    point = {from_bullet(hit.m_hitPointWorld) + kLift * normal,
-             particle.resting ? Vec3(Vec3::Zero()) : after};
+    if (!particle.resting) move(particle, world, lattice, ignored, dt);
+    particle.age += dt;
+    if (particle.age <= lifetime) continue;
+    lattice.motion[particle.point].velocity.setZero();
+    retired += lattice.mass[particle.point];
   }
+  std::erase_if(points_, [&](const Particle& particle) { return particle.age > lifetime; });
+  return retired;
+}
+
+void Debris::move(Particle& particle, btDiscreteDynamicsWorld& world, Lattice& lattice,
+                  const std::unordered_set<const btCollisionObject*>& ignored, double dt) const {
+  const Vec3 gravity = from_bullet(world.getGravity());
+  PointMotion& point = lattice.motion[particle.point];
+  const Vec3 velocity = point.velocity + gravity * dt;
+  const Vec3 target = point.position + 0.5 * dt * (point.velocity + velocity);
+  FirstHit hit(to_bullet(point.position), to_bullet(target), ignored);
+  world.rayTest(hit.m_rayFromWorld, hit.m_rayToWorld, hit);
+  if (!hit.hasHit()) {
+    point = {target, velocity};
+    return;
+  }
+  const Vec3 normal = from_bullet(hit.m_hitNormalWorld).normalized();
+  auto* body = const_cast<btRigidBody*>(btRigidBody::upcast(hit.m_collisionObject));
+  const bool movable = body && !body->isStaticOrKinematicObject();
+  Vec3 ground = Vec3::Zero();
+  Vec3 arm = Vec3::Zero();
+  if (body) {
+    arm = from_bullet(hit.m_hitPointWorld - body->getCenterOfMassPosition());
+    ground = from_bullet(body->getVelocityInLocalPoint(to_bullet(arm)));
+  }
+  const double friction =
+      hit.m_collisionObject->getFriction() *
+      lattice.objects[lattice.point_object[particle.point]].authored.object.friction;
+  const Vec3 after = ground + velocity_after_hit(velocity - ground, normal, friction);
+  if (movable) {
+    body->activate();
+    body->applyImpulse(to_bullet(lattice.mass[particle.point] * (velocity - after)),
+                       to_bullet(arm));
+  }
+  particle.resting = !movable && after.norm() < kRestSpeed;
+  point = {from_bullet(hit.m_hitPointWorld) + kLift * normal,
+           particle.resting ? Vec3(Vec3::Zero()) : after};
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -18,18 +18,24 @@ inline namespace LIMBER_BULLET_PRECISION {
 // the momentum that the particle loses.
 class Debris {
  public:
-  void add(std::int32_t point) { points_.push_back({point, false}); }
+  void add(std::int32_t point) { points_.push_back({point}); }
   std::size_t size() const { return points_.size(); }
 
-  // One tick for all: x += (v + v') dt / 2, v' = v + g dt, or to the first hit.
-  void step(btDiscreteDynamicsWorld& world, Lattice& lattice,
-            const std::unordered_set<const btCollisionObject*>& ignored, double dt);
+  // One tick for all: x += (v + v') dt / 2, v' = v + g dt, or to the first hit. Particles older than
+  // `lifetime` (s) are let go; returns their mass, kg.
+  double step(btDiscreteDynamicsWorld& world, Lattice& lattice,
+              const std::unordered_set<const btCollisionObject*>& ignored, double dt,
+              double lifetime);
 
  private:
   struct Particle {
     std::int32_t point;
-    bool resting;
+    bool resting = false;
+    double age = 0.0;  // s
   };
+  void move(Particle& particle, btDiscreteDynamicsWorld& world, Lattice& lattice,
+            const std::unordered_set<const btCollisionObject*>& ignored, double dt) const;
+
   std::vector<Particle> points_;
 };
 

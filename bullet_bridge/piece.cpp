@@ -25,7 +25,8 @@ PieceStrength strength_of(const Lattice& lattice, std::span<const std::int32_t> 
       if (s.a != p || lattice.breaking.edge_broken[e]) continue;
       stiffness += s.stiffness * s.rest_length * s.rest_length;
       strength.weakest_strain =
-          std::min(strength.weakest_strain, s.break_threshold / s.rest_length);
+          std::min({strength.weakest_strain, s.break_threshold / s.rest_length,
+                    s.crush_threshold / s.rest_length});
     }
   }
   const LatticeObject& object = lattice.objects[lattice.point_object[points[0]]];
@@ -58,6 +59,8 @@ void measure(Piece& piece, const Lattice& lattice) {
     farthest = std::max(farthest, (lattice.motion[p].position - centre).norm());
   }
   piece.size = 2.0 * farthest;
+  piece.pinned = std::any_of(piece.points.begin(), piece.points.end(),
+                             [&](std::int32_t p) { return lattice.inverse_mass[p] == 0.0; });
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

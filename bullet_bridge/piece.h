@@ -23,9 +23,11 @@ struct Piece {
   double stored_J = 0.0;              // elastic energy, while rigid
   double carried_load = 0.0;          // N, of its contacts when it became rigid
   double sustained_load = 0.0;        // N, of its contacts since then, averaged over time
+  double air_load = 0.0;              // N, mean force of the air in the last tick, while rigid
   int calm_ticks = 0;                 // while flexible
   double peak_load = 0.0;             // of the last tick, while flexible
   bool touched = false;               // by anything since it turned flexible
+  bool pinned = false;                // holds a pinned point, and stays flexible
 
   bool flexible() const { return proxy == nullptr; }
 };

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "bullet_bridge/conversions.h"
-#include "bullet_bridge/shadow_body.h"
+#include "core/dynamics/free_rotation.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -73,6 +73,13 @@ std::vector<ShapeItem> shape_items(const Lattice& lattice, std::span<const std::
   return items;
 }
 
+std::vector<BodyFace> faces_of(const Lattice& lattice, std::span<const std::int32_t> points,
+                               const ProxyFrame& frame) {
+  const BodyMotion pose{.centre = frame.centre,
+                        .rotation = frame.orientation.toRotationMatrix()};
+  return body_faces(faces_in_air(lattice, points), lattice.motion, pose);
+}
+
 }  // namespace
 
 ProxyFrame proxy_frame(const RigidMotion& motion) {
@@ -101,6 +108,7 @@ RigidProxy::RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
   for (std::int32_t p : points) {
     local_.push_back(to_local * (lattice.motion[p].position - frame.centre));
   }
+  flying_ = {frame.mass, frame.moments, faces_of(lattice, points, frame)};
   shape_ = fit_proxy_shape(shape_items(lattice, points, frame));
   mass_ = frame.mass;
   moments_ = frame.moments;
@@ -148,7 +156,40 @@ RigidMotion RigidProxy::motion() const {
   return motion;
 }
 
+FlightState RigidProxy::start_of_flight() const {
+  FlightState start;
+  start.centre = start_position_;
+  start.orientation = start_orientation_;
+  start.velocity = start_velocity_;
+  start.angular_momentum =
+      start_orientation_ *
+      Vec3(moments_.cwiseProduct(start_orientation_.conjugate() * start_angular_velocity_));
+  return start;
+}
+
+double RigidProxy::air_force(const Air& air, double time) const {
+  const RigidMotion now = motion();
+  const Mat3 rotation = from_bullet(body_->getWorldTransform().getRotation()).toRotationMatrix();
+  const BodyMotion pose{now.centre, rotation, now.velocity, now.angular_velocity};
+  return rigid_face_wrench(flying_.faces, pose, air, time).force.norm();
+}
+
+double RigidProxy::feel_air(const Air& air, double time, double tick) {
+  const Vec3 gravity = from_bullet(body_->getGravity());
+  const FlightState start = start_of_flight();
+  const FlightState end = flown(flying_, air, gravity, time, tick, start);
+  const Vec3 blown = end.velocity - start.velocity - gravity * tick;
+  FlightState turned = start;
+  turned.angular_momentum = end.angular_momentum;
+  const Vec3 spun = angular_velocity(flying_, turned) - start_angular_velocity_;
+  body_->setLinearVelocity(body_->getLinearVelocity() + to_bullet(blown));
+  body_->setAngularVelocity(body_->getAngularVelocity() + to_bullet(spun));
+  flight_end_ = end;
+  return flying_.mass * blown.norm() / tick;
+}
+
 void RigidProxy::remember() {
+  flight_end_.reset();
   start_velocity_ = from_bullet(body_->getLinearVelocity());
   start_position_ = from_bullet(body_->getWorldTransform().getOrigin());
   start_orientation_ = from_bullet(body_->getWorldTransform().getRotation());
@@ -162,10 +203,16 @@ void RigidProxy::remember() {
 
 void RigidProxy::fly(double tick) {
   const Vec3 velocity = from_bullet(body_->getLinearVelocity());
-  const Vec3 position = start_position_ + 0.5 * tick * (start_velocity_ + velocity);
+  Vec3 position = start_position_ + 0.5 * tick * (start_velocity_ + velocity);
   Eigen::Quaterniond orientation = start_orientation_;
   Vec3 omega = start_angular_velocity_;
-  rotate_freely(orientation, omega, moments_, tick);
+  if (flight_end_) {
+    position = flight_end_->centre;
+    orientation = flight_end_->orientation;
+    omega = angular_velocity(flying_, *flight_end_);
+  } else {
+    rotate_freely(orientation, omega, moments_, tick);
+  }
   const btTransform pose(to_bullet(orientation), to_bullet(position));
   body_->setWorldTransform(pose);
   body_->setInterpolationWorldTransform(pose);
@@ -175,22 +222,6 @@ void RigidProxy::fly(double tick) {
   flown_angular_velocity_ = omega;
   written_basis_ = pose.getBasis();
   written_angular_velocity_ = body_->getAngularVelocity();
-}
-
-void rotate_freely(Eigen::Quaterniond& orientation, Vec3& omega, const Vec3& moments, double dt) {
-  const auto world_omega = [&](const Eigen::Quaterniond& q, const Vec3& momentum) -> Vec3 {
-    return q * Vec3((q.conjugate() * momentum).cwiseQuotient(moments));
-  };
-  const Vec3 momentum = orientation * moments.cwiseProduct(orientation.conjugate() * omega);
-  // Turn by at most a twentieth of a radian a step: error per step about its cube.
-  const int steps = 1 + static_cast<int>(omega.norm() * dt / 0.05);
-  const double h = dt / steps;
-  for (int i = 0; i < steps; ++i) {
-    const Eigen::Quaterniond middle =
-        turned(orientation, world_omega(orientation, momentum), 0.5 * h);
-    orientation = turned(orientation, world_omega(middle, momentum), h);
-  }
-  omega = world_omega(orientation, momentum);
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -4,11 +4,13 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "bullet_bridge/proxy_shape.h"
 #include "core/dynamics/lattice.h"
+#include "core/environment/rigid_flight.h"
 
 class btDiscreteDynamicsWorld;
 class btRigidBody;
@@ -55,10 +57,19 @@ class RigidProxy {
   // The body's motion as Bullet holds it, with the exact mass and moments (Bullet's may be floats).
   RigidMotion motion() const;
 
+  // The same wind as its lattice would feel. Computes the flight through the air over the tick to
+  // come and gives the body what the air changes of its velocities in that time. Between remember()
+  // and the solver. Returns the mean force of the air, N.
+  bool feels_air() const { return !flying_.faces.empty(); }
+  double feel_air(const Air& air, double time, double tick);
+
+  // Force of the air as the body is now, N.
+  double air_force(const Air& air, double time) const;
+
   // Free flight. Bullet's step x += v' dt falls g t dt / 2 too far and keeps omega where it should
   // keep L. remember() before the solver, fly() after the move: the path of constant acceleration
   // x += (v + v') dt / 2, and the rotation of a free body. The rotation goes on in double as long
-  // as nobody else changes the body.
+  // as nobody else changes the body. A body that feels the air goes where feel_air() had it go.
   void remember();
   void fly(double tick);
 
@@ -66,7 +77,11 @@ class RigidProxy {
 
  private:
   btDiscreteDynamicsWorld& world_;
+  FlightState start_of_flight() const;
+
   std::vector<Vec3> local_;  // shape (points)
+  FlyingBody flying_;        // with the faces that feel the air
+  std::optional<FlightState> flight_end_;  // of this tick
   ProxyShape shape_;
   std::unique_ptr<btRigidBody> body_;
   double mass_ = 0.0;
@@ -81,10 +96,6 @@ class RigidProxy {
   btMatrix3x3 written_basis_;  // what Bullet was given for them
   btVector3 written_angular_velocity_;
 };
-
-// Rotation of a free rigid body over dt by midpoint steps that keep L to rounding.
-// moments: principal moments; omega: world frame, updated with the orientation.
-void rotate_freely(Eigen::Quaterniond& orientation, Vec3& omega, const Vec3& moments, double dt);
 
 }  // namespace LIMBER_BULLET_PRECISION
 }  // namespace limber::bullet

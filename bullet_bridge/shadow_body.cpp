@@ -3,6 +3,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "bullet_bridge/conversions.h"
+#include "core/dynamics/free_rotation.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -64,12 +65,6 @@ void correct_pose(const ShadowBody& shadow, double tick) {
   shadow.body->setWorldTransform(pose);
   shadow.body->setInterpolationWorldTransform(pose);
   shadow.body->updateInertiaTensor();
-}
-
-Eigen::Quaterniond turned(const Eigen::Quaterniond& q, const Vec3& omega, double dt) {
-  const double rate = omega.norm();
-  if (rate == 0.0) return q;
-  return (Eigen::Quaterniond(Eigen::AngleAxisd(rate * dt, omega / rate)) * q).normalized();
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -72,8 +72,5 @@ void write_velocity(const ShadowBody& shadow, const Vec3& velocity);
 // final velocity, which Bullet has integrated.
 void correct_pose(const ShadowBody& shadow, double tick);
 
-// Orientation after turning at a constant angular velocity (exponential map).
-Eigen::Quaterniond turned(const Eigen::Quaterniond& q, const Vec3& omega, double dt);
-
 }  // namespace LIMBER_BULLET_PRECISION
 }  // namespace limber::bullet

@@ -48,6 +48,10 @@ struct Bounds {
   }
 };
 
+bool ascending(const PointContacts::Pair& l, const PointContacts::Pair& r) {
+  return l.a != r.a ? l.a < r.a : l.b < r.b;
+}
+
 double largest_radius(const Lattice& lattice, const std::vector<std::int32_t>& points) {
   double radius = 0.0;
   for (std::int32_t p : points) radius = std::max(radius, lattice.contact_radius[p]);
@@ -71,6 +75,7 @@ void PointContacts::Listing::remember(const Lattice& lattice, std::vector<std::i
 
 void PointContacts::refresh(const Lattice& lattice, const Components& pieces, bool topology_changed,
                             bool carried_changed) {
+  merge_fresh();
   if (topology_changed || carried_changed) {
     group_points(lattice, pieces);
     skin_ = kSkinShare * largest_radius(lattice, all_points(lattice));
@@ -82,6 +87,26 @@ void PointContacts::refresh(const Lattice& lattice, const Components& pieces, bo
       (refreshes_ % kDeformationCheckInterval == 0 && deformed_too_far(lattice, pieces));
   if (within_stale_ && refreshes_ % kWithinInterval == 0) list_within(lattice);
   ++refreshes_;
+}
+
+// However far apart they are: a pair out of reach exerts nothing and is gone with the next listing,
+// but one out of reach today may have been nearer when the list was made, and the list has to bear
+// the deformation since then.
+void PointContacts::edges_broken(const Lattice& lattice, std::span<const std::int32_t> edges) {
+  if (skin_ == 0.0) return;  // nothing is listed yet, or no point has a contact radius
+  for (std::int32_t e : edges) {
+    const auto [p, q] = std::minmax(lattice.springs[e].a, lattice.springs[e].b);
+    if (lattice.role[p] == PointRole::kDynamic) fresh_.push_back(make_pair(lattice, p, q));
+  }
+}
+
+void PointContacts::merge_fresh() {
+  if (fresh_.empty()) return;
+  const auto listed = static_cast<std::ptrdiff_t>(within_.size());
+  std::sort(fresh_.begin(), fresh_.end(), ascending);
+  within_.insert(within_.end(), fresh_.begin(), fresh_.end());
+  std::inplace_merge(within_.begin(), within_.begin() + listed, within_.end(), ascending);
+  fresh_.clear();
 }
 
 void PointContacts::group_points(const Lattice& lattice, const Components& pieces) {
@@ -163,8 +188,7 @@ PointContacts::Pairs PointContacts::near_pairs(const Lattice& lattice,
     if ((at[i] - at[j]).squaredNorm() > reach * reach || !accept(p, q)) return;
     pairs.push_back(make_pair(lattice, p, q));
   });
-  std::sort(pairs.begin(), pairs.end(),
-            [](const Pair& l, const Pair& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; });
+  std::sort(pairs.begin(), pairs.end(), ascending);
   return pairs;
 }
 
@@ -226,6 +250,7 @@ double PointContacts::eased_contact_distance(const Lattice& lattice, std::int32_
 void PointContacts::add_forces(Lattice& lattice) const {
   add_forces_of(between_, lattice);
   add_forces_of(within_, lattice);
+  add_forces_of(fresh_, lattice);
 }
 
 void PointContacts::add_forces_of(const Pairs& pairs, Lattice& lattice) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/contact/penalty.h"
@@ -26,12 +27,15 @@ class PointContacts {
   void refresh(const Lattice& lattice, const Components& pieces, bool topology_changed,
                bool carried_changed);
 
+  // Lists the ends of edges that have just broken, each once, at the cost of those edges. Where no
+  // piece fell apart this replaces refresh() with `topology_changed`: within a piece all near pairs
+  // but the joined ones are listed, and breaking an edge changes for no other pair whether it is
+  // near, of one piece, or joined. Where one did, refresh() has to follow.
+  void edges_broken(const Lattice& lattice, std::span<const std::int32_t> edges);
+
   // Adds the forces of all listed pairs to lattice.force.
   void add_forces(Lattice& lattice) const;
 
-  std::size_t size() const { return between_.size() + within_.size(); }
-
- private:
   struct Pair {
     std::int32_t a, b;        // a < b
     double contact_distance;  // m
@@ -40,6 +44,12 @@ class PointContacts {
   };
   using Pairs = std::vector<Pair>;  // ascending by (a, b)
 
+  // The pairs within pieces as of the last refresh().
+  const Pairs& within() const { return within_; }
+
+  std::size_t size() const { return between_.size() + within_.size() + fresh_.size(); }
+
+ private:
   // Points and where they were when a list was made.
   struct Listing {
     std::vector<std::int32_t> points;
@@ -47,6 +57,7 @@ class PointContacts {
     void remember(const Lattice& lattice, std::vector<std::int32_t> of);
   };
 
+  void merge_fresh();
   void group_points(const Lattice& lattice, const Components& pieces);
   bool moved_too_far(const Lattice& lattice) const;
   bool deformed_too_far(const Lattice& lattice, const Components& pieces) const;
@@ -62,6 +73,9 @@ class PointContacts {
   void add_forces_of(const Pairs& pairs, Lattice& lattice) const;
 
   Pairs between_, within_;
+  // Within pieces too, in order of breaking: inserted one by one they would cost the whole list
+  // each.
+  Pairs fresh_;
   Pairs old_between_, old_within_;
   Listing between_listing_, within_listing_;
   std::vector<std::int32_t> group_;  // shape (P): piece, or carrying body, of each point

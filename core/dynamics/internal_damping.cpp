@@ -1,9 +1,19 @@
 #include "core/dynamics/internal_damping.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace limber {
 namespace {
+
+// Pieces that a pin holds: their points have no common rigid motion to be drawn to.
+std::vector<bool> pinned_pieces(const Lattice& lattice, const Components& pieces) {
+  std::vector<bool> pinned(pieces.count, false);
+  for (std::int32_t p : lattice.dynamic_points) {
+    if (lattice.inverse_mass[p] == 0.0) pinned[pieces.label[p]] = true;
+  }
+  return pinned;
+}
 
 // rigid_motion() of every piece in two passes over the points.
 std::vector<RigidMotion> rigid_motions(const Lattice& lattice, const Components& pieces) {
@@ -34,13 +44,19 @@ std::vector<RigidMotion> rigid_motions(const Lattice& lattice, const Components&
 }  // namespace
 
 double damp_internally(Lattice& lattice, const Components& pieces, double t) {
+  const auto undamped = [](const LatticeObject& object) {
+    return object.authored.object.internal_damping == 0.0;
+  };
+  if (std::all_of(lattice.objects.begin(), lattice.objects.end(), undamped)) return 0.0;
   std::vector<double> share(lattice.objects.size());
   for (std::size_t o = 0; o < share.size(); ++o) {
     share[o] = -std::expm1(-lattice.objects[o].authored.object.internal_damping * t);
   }
   const std::vector<RigidMotion> bodies = rigid_motions(lattice, pieces);
+  const std::vector<bool> pinned = pinned_pieces(lattice, pieces);
   double loss = 0.0;
   for (std::int32_t p : lattice.dynamic_points) {
+    if (pinned[pieces.label[p]]) continue;
     const double s = share[lattice.point_object[p]];
     Vec3& v = lattice.motion[p].velocity;
     const Vec3 vibration = v - bodies[pieces.label[p]].velocity_at(lattice.motion[p].position);

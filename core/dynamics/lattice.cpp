@@ -10,10 +10,6 @@
 namespace limber {
 namespace {
 
-// Contact radius of a point as a share of its shortest edge: two neighbours' spheres must not
-// overlap at rest, or breaking their edge would set free contact energy.
-constexpr double kContactRadiusShare = 0.45;
-
 // The chosen step keeps this distance from the bound: the bound is that of the undeformed lattice
 // with one contact a point and does not know friction (a twentieth, see kFrictionShare).
 constexpr double kStepSafety = 0.92;
@@ -114,25 +110,34 @@ double contact_frequency_of(const PhysicalModel& model) {
   return std::sqrt(std::max(kContactStiffnessShare * median_stiffness_per_mass(model), to_stand));
 }
 
-// Step of semi-implicit Euler with springs K, stiffness-proportional damping and one contact a
-// point: K <= K_springs + omega_c^2 (Weyl), C <= beta K_springs.
-double largest_step(const PhysicalModel& model, double contact_frequency) {
-  const double omega_springs = highest_frequency(model).omega_max;
-  double damping_time = 0.0;  // s, largest c / k
+double largest_damping_time(const PhysicalModel& model) {  // s, c / k
+  double time = 0.0;
   for (const EdgeAttributes& e : model.edges) {
-    if (e.stiffness > 0.0) damping_time = std::max(damping_time, e.damping / e.stiffness);
+    if (e.stiffness > 0.0) time = std::max(time, e.damping / e.stiffness);
   }
-  const double squared = omega_springs * omega_springs + contact_frequency * contact_frequency;
-  const double omega = std::sqrt(squared);
-  const double damping = damping_time * omega_springs * omega_springs;  // 1/s
-  return kStepSafety * stable_step(omega, omega > 0.0 ? damping / (2.0 * omega) : 0.0);
+  return time;
+}
+
+void set_step(LatticeObject& object, const PhysicalModel& model) {
+  object.contact_frequency = contact_frequency_of(model);
+  object.spring_frequency = highest_frequency(model).omega_max;
+  object.spring_damping =
+      largest_damping_time(model) * object.spring_frequency * object.spring_frequency;
+  object.least_mass = kUnbreakable;
+  for (const PointAttributes& p : model.points) {
+    object.least_mass = std::min(object.least_mass, p.mass);
+  }
+  object.largest_step = largest_step(object);
 }
 
 void append_points(Lattice& lattice, const PhysicalModel& model) {
   const auto object = static_cast<std::int32_t>(lattice.objects.size());
   for (PointId p : ids_of(model.points)) {
-    lattice.motion.push_back({model.geometry.points[p], model.points[p].velocity});
-    lattice.mass.push_back(model.points[p].mass);
+    const PointAttributes& point = model.points[p];
+    const Vec3 velocity = point.pinned ? Vec3(Vec3::Zero()) : point.velocity;
+    lattice.motion.push_back({model.geometry.points[p], velocity});
+    lattice.mass.push_back(point.mass);
+    lattice.inverse_mass.push_back(point.pinned ? 0.0 : 1.0 / point.mass);
     lattice.authored_position.push_back(model.geometry.points[p]);
   }
   lattice.force.resize(lattice.motion.size(), Vec3::Zero());
@@ -151,14 +156,14 @@ void append_springs(Lattice& lattice, const PhysicalModel& model, std::int32_t f
     const EdgeAttributes& attributes = model.edges[e];
     lattice.springs.push_back({edge.a.value + first_point, edge.b.value + first_point,
                                attributes.stiffness, attributes.damping, attributes.rest_length,
-                               attributes.break_threshold});
+                               attributes.break_threshold, attributes.crush_threshold});
     for (PointId p : {edge.a, edge.b}) {
       shortest[p.index()] = std::min(shortest[p.index()], attributes.rest_length);
     }
   }
   for (std::size_t p = 0; p < shortest.size(); ++p) {
     if (shortest[p] < kUnbreakable) {
-      lattice.contact_radius[first_point + p] = kContactRadiusShare * shortest[p];
+      lattice.contact_radius[first_point + p] = model.object.contact_share * shortest[p];
     }
   }
 }
@@ -169,6 +174,18 @@ std::vector<std::int32_t> points_of_role(const Lattice& lattice, PointRole role)
     if (lattice.role[p] == role) points.push_back(static_cast<std::int32_t>(p));
   }
   return points;
+}
+
+void append_active(Lattice& lattice, bool breakable) {
+  for (std::size_t e = 0; e < lattice.springs.size(); ++e) {
+    const Spring& s = lattice.springs[e];
+    // A piece is dynamic as a whole, so that one end decides.
+    if (lattice.breaking.edge_broken[e] || lattice.role[s.a] != PointRole::kDynamic) continue;
+    if (s.breakable() != breakable) continue;
+    lattice.active_of_edge[e] = static_cast<std::int32_t>(lattice.active.size());
+    lattice.active.push_back(s);
+    lattice.active_edge.push_back(static_cast<std::int32_t>(e));
+  }
 }
 
 template <class IdType>
@@ -193,8 +210,7 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   object.edges = next_range<EdgeId>(lattice.springs.size(), model.edges.size());
   object.faces = next_range<FaceId>(lattice.topology.face_cell.size(), model.faces.size());
   object.cells = next_range<CellId>(lattice.breaking.cell_valid.size(), model.cells.size());
-  object.contact_frequency = contact_frequency_of(model);
-  object.largest_step = largest_step(model, object.contact_frequency);
+  set_step(object, model);
 
   const BreakingTopology topology = breaking_topology(model.geometry);
   const BreakingState state = breaking_state(model, topology);
@@ -212,18 +228,22 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   return lattice.objects.size() - 1;
 }
 
+// K <= K_springs + omega_c^2 + k / m (Weyl), C <= beta K_springs + c / m.
+double largest_step(const LatticeObject& object, double stiffness, double damping) {
+  const double omega = std::sqrt(object.spring_frequency * object.spring_frequency +
+                                 object.contact_frequency * object.contact_frequency +
+                                 stiffness / object.least_mass);
+  const double rate = object.spring_damping + damping / object.least_mass;
+  return kStepSafety * stable_step(omega, omega > 0.0 ? rate / (2.0 * omega) : 0.0);
+}
+
 void rebuild_active(Lattice& lattice) {
   lattice.active.clear();
   lattice.active_edge.clear();
   lattice.active_of_edge.assign(lattice.springs.size(), -1);
-  for (std::size_t e = 0; e < lattice.springs.size(); ++e) {
-    const Spring& s = lattice.springs[e];
-    // A piece is dynamic as a whole, so that one end decides.
-    if (lattice.breaking.edge_broken[e] || lattice.role[s.a] != PointRole::kDynamic) continue;
-    lattice.active_of_edge[e] = static_cast<std::int32_t>(lattice.active.size());
-    lattice.active.push_back(s);
-    lattice.active_edge.push_back(static_cast<std::int32_t>(e));
-  }
+  append_active(lattice, false);
+  lattice.first_breakable = lattice.active.size();
+  append_active(lattice, true);
   lattice.dynamic_points = points_of_role(lattice, PointRole::kDynamic);
   rebuild_carried(lattice);
 }
@@ -239,6 +259,7 @@ void slacken(Lattice& lattice, std::span<const std::int32_t> broken_edges) {
     lattice.active[active].stiffness = 0.0;
     lattice.active[active].damping = 0.0;
     lattice.active[active].break_threshold = kUnbreakable;
+    lattice.active[active].crush_threshold = kUnbreakable;
   }
 }
 

@@ -24,6 +24,11 @@ struct Spring {
   double damping;          // N s/m
   double rest_length;      // m
   double break_threshold;  // m of stretch
+  double crush_threshold;  // m of shortening
+
+  bool breakable() const {
+    return break_threshold < kUnbreakable || crush_threshold < kUnbreakable;
+  }
 };
 
 // One object's share of the arrays, and what it takes to turn them into a PhysicalModel again.
@@ -33,8 +38,11 @@ struct LatticeObject {
   IdRange<EdgeId> edges;
   IdRange<FaceId> faces;
   IdRange<CellId> cells;
-  double largest_step = 0.0;       // s, stable with its contacts
+  double spring_frequency = 0.0;   // rad/s, bound on the highest of its springs
+  double spring_damping = 0.0;     // 1/s, the damping rate 2 zeta omega there
   double contact_frequency = 0.0;  // omega_c of penalty.h, rad/s
+  double least_mass = 0.0;         // kg, of a point
+  double largest_step = 0.0;       // s, stable with its springs and contacts
 };
 
 // All simulated objects, compiled into arrays. Topology and constants do not change while they are
@@ -45,6 +53,7 @@ struct Lattice {
   std::vector<PointMotion> motion;         // shape (P), m and m/s
   std::vector<Vec3> force;                 // shape (P), N
   std::vector<double> mass;                // shape (P), kg
+  std::vector<double> inverse_mass;        // shape (P), 1/kg: 0 for pinned points
   std::vector<PointRole> role;             // shape (P)
   std::vector<Vec3> authored_position;     // shape (P), m, as added
   std::vector<double> contact_radius;      // shape (P), m
@@ -59,8 +68,10 @@ struct Lattice {
   BreakingState breaking;
 
   // The springs that are integrated: unbroken, both ends dynamic. Compact copies, so that the inner
-  // loop streams through them; one that breaks goes slack until the next rebuild.
+  // loop streams through them; one that breaks goes slack until the next rebuild. First those that
+  // cannot break: they skip the check.
   std::vector<Spring> active;                // shape (A)
+  std::size_t first_breakable = 0;
   std::vector<std::int32_t> active_edge;     // shape (A) -> edge
   std::vector<std::int32_t> active_of_edge;  // shape (E) -> active or -1
   std::vector<std::int32_t> dynamic_points;
@@ -74,6 +85,10 @@ bool joined(const Lattice& lattice, std::int32_t p, std::int32_t q);
 // Appends a model; all its points start dynamic. Throws InputError where validate() objects.
 // Returns the index of the object. Call rebuild_active() afterwards.
 std::size_t add_object(Lattice& lattice, PhysicalModel model);
+
+// Step of semi-implicit Euler, s, that stays stable when each point is also tied to something by a
+// spring (N/m) and a damper (N s/m), such as a penalty ground.
+double largest_step(const LatticeObject& object, double stiffness = 0.0, double damping = 0.0);
 
 // Refreshes `active`, `dynamic_points` and `carried_points` after breaks and changes of role.
 void rebuild_active(Lattice& lattice);

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <cmath>
 
 namespace limber {
 
@@ -55,26 +56,57 @@ double kinetic_energy(std::span<const PointMotion> motion, std::span<const doubl
   return energy;
 }
 
+namespace {
+
+// Points and their reference, both about their centres of mass.
+struct Match {
+  double mass = 0.0;                     // kg
+  Vec3 centre = Vec3::Zero();            // m
+  Vec3 reference_centre = Vec3::Zero();  // m
+  Mat3 moment = Mat3::Zero();            // sum m x r^T, kg m^2
+};
+
+Match match_of(std::span<const PointMotion> motion, std::span<const Vec3> reference,
+               std::span<const double> mass, std::span<const std::int32_t> of) {
+  Match match;
+  for (std::int32_t p : of) {
+    match.mass += mass[p];
+    match.centre += mass[p] * motion[p].position;
+    match.reference_centre += mass[p] * reference[p];
+  }
+  match.centre /= match.mass;
+  match.reference_centre /= match.mass;
+  for (std::int32_t p : of) {
+    match.moment += mass[p] * (motion[p].position - match.centre) *
+                    (reference[p] - match.reference_centre).transpose();
+  }
+  return match;
+}
+
+}  // namespace
+
+RigidFit rigid_fit(std::span<const PointMotion> motion, std::span<const Vec3> reference,
+                   std::span<const double> mass, std::span<const std::int32_t> of) {
+  RigidFit fit;
+  if (of.empty()) return fit;
+  const Match match = match_of(motion, reference, mass, of);
+  const Eigen::JacobiSVD<Mat3> svd(match.moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vec3 proper = Vec3::Ones();
+  proper[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  fit.rotation = svd.matrixU() * proper.asDiagonal() * svd.matrixV().transpose();
+  fit.singular_values = svd.singularValues().cwiseProduct(proper);
+  double sum = 0.0;
+  for (std::int32_t p : of) {
+    const Vec3 carried = fit.rotation * (reference[p] - match.reference_centre);
+    sum += mass[p] * (motion[p].position - match.centre - carried).squaredNorm();
+  }
+  fit.residual = std::sqrt(sum / match.mass);
+  return fit;
+}
+
 Mat3 best_rotation(std::span<const PointMotion> motion, std::span<const Vec3> reference,
                    std::span<const double> mass, std::span<const std::int32_t> of) {
-  double total = 0.0;
-  Vec3 centre = Vec3::Zero(), reference_centre = Vec3::Zero();
-  for (std::int32_t p : of) {
-    total += mass[p];
-    centre += mass[p] * motion[p].position;
-    reference_centre += mass[p] * reference[p];
-  }
-  centre /= total;
-  reference_centre /= total;
-  Mat3 moment = Mat3::Zero();
-  for (std::int32_t p : of) {
-    moment +=
-        mass[p] * (motion[p].position - centre) * (reference[p] - reference_centre).transpose();
-  }
-  const Eigen::JacobiSVD<Mat3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Mat3 proper = Mat3::Identity();
-  proper(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-  return svd.matrixU() * proper * svd.matrixV().transpose();
+  return rigid_fit(motion, reference, mass, of).rotation;
 }
 
 }  // namespace limber

@@ -44,4 +44,16 @@ double kinetic_energy(std::span<const PointMotion> motion, std::span<const doubl
 Mat3 best_rotation(std::span<const PointMotion> motion, std::span<const Vec3> reference,
                    std::span<const double> mass, std::span<const std::int32_t> of);
 
+// How well a rigid shape stands for a set of points.
+struct RigidFit {
+  Mat3 rotation = Mat3::Identity();  // best_rotation()
+  // Singular values of sum m x r^T, kg m^2, descending; the last one has the sign of the
+  // determinant. < 0: the points are turned inside out; 0: they, or the reference, are flat. The
+  // best rotation is unique as long as the last two do not add up to 0.
+  Vec3 singular_values = Vec3::Zero();
+  double residual = 0.0;  // m: mass-weighted root mean square of x - R r, about the centres
+};
+RigidFit rigid_fit(std::span<const PointMotion> motion, std::span<const Vec3> reference,
+                   std::span<const double> mass, std::span<const std::int32_t> of);
+
 }  // namespace limber

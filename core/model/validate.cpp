@@ -5,7 +5,7 @@
 #include "core/model/check_topology.h"
 #include "core/model/diagnostic_list.h"
 
-// The checks P1 to P11 of docs/invariants.md, after those of the geometry.
+// The checks P1 to P12 of docs/invariants.md, after those of the geometry.
 
 namespace limber {
 namespace {
@@ -46,6 +46,9 @@ void check_edge(const EdgeAttributes& edge, std::size_t i, DiagnosticList& out) 
   if (!(edge.break_threshold > 0.0))
     out.add(say("edge ", i), say("P6 break threshold is ", edge.break_threshold, " m"),
             "give it a stretch above 0, or kUnbreakable");
+  if (!(edge.crush_threshold > 0.0))
+    out.add(say("edge ", i), say("P6 crush threshold is ", edge.crush_threshold, " m"),
+            "give it a shortening above 0, or kUnbreakable");
 }
 
 void check_edges(const PhysicalModel& model, DiagnosticList& out) {
@@ -58,7 +61,7 @@ void check_faces(const PhysicalModel& model, DiagnosticList& out) {
     const FaceAttributes& face = model.faces[FaceId(i)];
     for (double drag : {face.normal_drag, face.tangential_drag})
       if (!finite_from(0.0, drag))
-        out.add(say("face ", i), say("P11 drag is ", drag, " kg/m^3"),
+        out.add(say("face ", i), say("P11 drag coefficient is ", drag),
                 "give it a finite value, 0 or above");
   }
 }
@@ -107,24 +110,36 @@ void check_object(const ObjectAttributes& object, DiagnosticList& out) {
   if (!finite_from(0.0, object.internal_damping))
     out.add("object", say("P9 internal damping is ", object.internal_damping, " 1/s"),
             "give it a finite value, 0 or above");
+  if (!(object.contact_share >= 0.0 && object.contact_share <= 0.45))
+    out.add("object", say("P9 contact share is ", object.contact_share),
+            "give it a share of the shortest edge from 0 (no contact) to 0.45");
   if (!finite_from(1.0, object.softening))
     out.add("object", say("P9 softening is ", object.softening),
             "give it a finite value, 1 (none) or above");
 }
 
-void check_surfaces(const PhysicalModel& model, DiagnosticList& out) {
-  if (model.surfaces.size() != model.geometry.subobjects.size())
-    out.add("surfaces",
-            say("P10 has ", model.surfaces.size(), " entries for ",
-                model.geometry.subobjects.size(), " subobjects"),
+void check_part(const SubobjectAttributes& part, std::size_t i, DiagnosticList& out) {
+  const SurfaceProperties& s = part.surface;
+  for (double x : {s.colour[0], s.colour[1], s.colour[2], s.specularity, s.transparency})
+    if (!in_unit_interval(x))
+      out.add(say("part ", i), say("P10 has a colour, specularity or transparency of ", x),
+              "give it values from 0 to 1");
+  if (!finite_from(1.0, s.index_of_refraction))
+    out.add(say("part ", i), say("P10 index of refraction is ", s.index_of_refraction),
+            "give it a finite value, 1 (a vacuum) or above");
+  for (const auto& [name, x] : part.values)
+    if (!std::isfinite(x))
+      out.add(say("part ", i), say("P12 value '", name, "' is ", x), "give it a finite value");
+}
+
+void check_parts(const PhysicalModel& model, DiagnosticList& out) {
+  if (model.parts.size() != model.geometry.subobjects.size())
+    out.add("parts",
+            say("P10 has ", model.parts.size(), " entries for ", model.geometry.subobjects.size(),
+                " subobjects"),
             "give every subobject one");
-  for (std::size_t i = 0; i < model.surfaces.size() && !out.full(); ++i) {
-    const SurfaceProperties& s = model.surfaces[i];
-    for (double x : {s.colour[0], s.colour[1], s.colour[2], s.specularity, s.transparency})
-      if (!in_unit_interval(x))
-        out.add(say("surface ", i), say("P10 has a colour, specularity or transparency of ", x),
-                "give it values from 0 to 1");
-  }
+  for (std::size_t i = 0; i < model.parts.size() && !out.full(); ++i)
+    check_part(model.parts[i], i, out);
 }
 
 void check_physics(const PhysicalModel& model, DiagnosticList& out) {
@@ -141,7 +156,7 @@ void check_physics(const PhysicalModel& model, DiagnosticList& out) {
     check_edge_states(model, out);
   }
   check_object(model.object, out);
-  check_surfaces(model, out);
+  check_parts(model, out);
 }
 
 }  // namespace

@@ -44,7 +44,9 @@ std::vector<std::array<int, 2>> corner_pairs(const CellEdges& edges) {
   for (int a = 0; a < kCorners; ++a) {
     for (int b = a + 1; b < kCorners; ++b) {
       const int differing = std::popcount(static_cast<unsigned>(a ^ b));
-      const bool wanted = differing == 1 || (differing == 2 && edges.face_diagonals) ||
+      const bool is_from_lowest = (a & b) == a;
+      const bool across = edges.face_diagonals || (edges.one_face_diagonal && is_from_lowest);
+      const bool wanted = (differing == 1 && edges.axial) || (differing == 2 && across) ||
                           (differing == 3 && edges.body_diagonals);
       if (wanted) pairs.push_back({a, b});
     }

@@ -126,6 +126,8 @@ void check(const Material& m, const std::string& name) {
                  "give a positive Pa");
   require_number(m.strain_at_break > 0.0, where, "strain at break", m.strain_at_break,
                  "give a positive strain or leave it unbreakable");
+  require_number(m.strain_at_crush > 0.0, where, "strain at crush", m.strain_at_crush,
+                 "give a positive strain or leave it unbreakable");
   require_number(not_negative(m.damping_ratio), where, "damping ratio", m.damping_ratio,
                  "give 0 or more");
   require_number(not_negative(m.internal_damping), where, "internal damping", m.internal_damping,
@@ -196,12 +198,15 @@ void require_every_element_in_a_cell(const PhysicalModel& model) {
   }
 }
 
-void set_lengths_and_thresholds(PhysicalModel& model, double strain_at_break) {
+void set_lengths_and_thresholds(PhysicalModel& model, const Material& material) {
+  const double strain_at_break = material.effective_strain_at_break();
+  const double strain_at_crush = material.effective_strain_at_crush();
   for (EdgeId e : ids_of(model.edges)) {
     const auto [a, b] = model.geometry.edges[e];
     EdgeAttributes& edge = model.edges[e];
     edge.rest_length = (model.geometry.points[b] - model.geometry.points[a]).norm();
     edge.break_threshold = strain_at_break * edge.rest_length;
+    edge.crush_threshold = strain_at_crush * edge.rest_length;
   }
 }
 
@@ -211,6 +216,10 @@ double Material::effective_modulus() const { return youngs_modulus / softening; 
 
 double Material::effective_strain_at_break() const {
   return strain_at_break * std::sqrt(softening);
+}
+
+double Material::effective_strain_at_crush() const {
+  return strain_at_crush * std::sqrt(softening);
 }
 
 std::vector<double> isotropic_cell_stiffness(std::span<const Vec3> edges_m, double volume_m3,
@@ -253,7 +262,7 @@ PhysicalModel with_material(GeometricModel geometry, std::string name, const Mat
   for (EdgeAttributes& edge : model.edges) edge.stiffness = 0.0;
   add_cells(model, material);
   require_every_element_in_a_cell(model);
-  set_lengths_and_thresholds(model, material.effective_strain_at_break());
+  set_lengths_and_thresholds(model, material);
   set_stiffness_proportional_damping(model, material.damping_ratio);
   model.object = {material.friction, material.restitution, material.internal_damping,
                   material.softening};

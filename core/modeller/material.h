@@ -14,6 +14,7 @@ struct Material {
   double density = 0.0;                   // kg/m^3
   double youngs_modulus = 0.0;            // Pa, of the real material
   double strain_at_break = kUnbreakable;  // of the real material, tension
+  double strain_at_crush = kUnbreakable;  // of the real material, compression
   double damping_ratio = 0.0;             // of the lattice's highest frequency
   double internal_damping = 0.0;          // 1/s
   double friction = 0.5;
@@ -24,6 +25,7 @@ struct Material {
 
   double effective_modulus() const;  // Pa
   double effective_strain_at_break() const;
+  double effective_strain_at_crush() const;
 };
 
 // Spring constants (N/m) that make the cell as nearly isotropic with the given modulus as its edges

@@ -6,6 +6,7 @@
 
 #include "core/model/diagnostic_list.h"
 #include "core/model/errors.h"
+#include "core/operators/prefetch.h"
 
 namespace limber {
 namespace {
@@ -81,6 +82,64 @@ IndexRows edge_sheet_faces(const GeometricModel& geometry) {
       faces_of_edge, [](const auto& list) -> const auto& { return list; });
 }
 
+// ---- fetching what the steps will read ---------------------------------------------------------
+
+constexpr std::size_t kIntsPerCacheLine = 64 / sizeof(std::int32_t);
+
+void prefetch_row(std::span<const std::int32_t> row) {
+  for (std::size_t i = 0; i < row.size(); i += kIntsPerCacheLine) prefetch(&row[i]);
+  if (!row.empty()) prefetch(&row.back());
+}
+
+void prefetch_rows_of(const BreakingTopology& topology, std::span<const std::int32_t> cells) {
+  for (std::int32_t cell : cells) {
+    prefetch(&topology.cell_edges.start[cell]);
+    prefetch(&topology.cell_faces.start[cell]);
+  }
+  for (std::int32_t cell : cells) {
+    prefetch_row(topology.cell_edges[cell]);
+    prefetch_row(topology.cell_faces[cell]);
+  }
+}
+
+// Of every edge the first cell, which is a valid one more often than not.
+void prefetch_edges_of(const BreakingTopology& topology, const BreakingState& state,
+                       std::span<const std::int32_t> cells) {
+  const IndexRows& edge_cells = topology.edge_cells;
+  for (std::int32_t cell : cells)
+    for (std::int32_t edge : topology.cell_edges[cell])
+      prefetch(&edge_cells.items[edge_cells.start[edge]]);
+  for (std::int32_t cell : cells)
+    for (std::int32_t edge : topology.cell_edges[cell])
+      prefetch(&state.cell_valid[edge_cells.items[edge_cells.start[edge]]]);
+}
+
+void prefetch_twins_of(const BreakingTopology& topology, const BreakingState& state,
+                       std::span<const std::int32_t> cells) {
+  for (std::int32_t cell : cells)
+    for (std::int32_t face : topology.cell_faces[cell]) {
+      const std::int32_t twin = topology.face_twin[face];
+      if (twin < 0) continue;
+      prefetch(&topology.face_cell[twin]);
+      prefetch(&state.face_external[twin]);
+    }
+}
+
+// Level by level: each pass needs what the one before has fetched.
+void prefetch_around(const BreakingTopology& topology, const BreakingState& state,
+                     std::span<const std::int32_t> cells) {
+  prefetch_rows_of(topology, cells);
+  for (std::int32_t cell : cells) {
+    for (std::int32_t edge : topology.cell_edges[cell]) prefetch(&topology.edge_cells.start[edge]);
+    for (std::int32_t face : topology.cell_faces[cell]) {
+      prefetch(&topology.face_twin[face]);
+      prefetch(&state.face_external[face]);
+    }
+  }
+  prefetch_twins_of(topology, state, cells);
+  prefetch_edges_of(topology, state, cells);
+}
+
 // ---- the three steps ---------------------------------------------------------------------------
 
 void mark_broken(BreakingState& state, std::int32_t edge, BreakingResult& result) {
@@ -118,12 +177,13 @@ bool is_external(const BreakingTopology& topology, const BreakingState& state, s
          (twin < 0 || !state.cell_valid[topology.face_cell[twin]]);
 }
 
+// A face shows when its reverse has lost its cell and its own is still there.
 void expose_faces(const BreakingTopology& topology, BreakingState& state, BreakingResult& result) {
   for (std::int32_t cell : result.invalid_cells)
     for (std::int32_t face : topology.cell_faces[cell]) {
       state.face_external[face] = 0;
       const std::int32_t twin = topology.face_twin[face];
-      if (twin < 0 || !is_external(topology, state, twin)) continue;
+      if (twin < 0 || !state.cell_valid[topology.face_cell[twin]]) continue;
       state.face_external[twin] = 1;
       result.exposed_faces.push_back(twin);
     }
@@ -164,18 +224,27 @@ BreakingState breaking_state(const PhysicalModel& model, const BreakingTopology&
 
 BreakingResult break_edges(const BreakingTopology& topology, BreakingState& state,
                            std::span<const std::int32_t> edges) {
-  std::vector<std::int32_t> marked(edges.begin(), edges.end());
-  std::sort(marked.begin(), marked.end());
-  assert(marked.empty() || (marked.front() >= 0 && marked.back() < std::ssize(state.edge_broken)));
-
   BreakingResult result;
-  for (std::int32_t edge : marked) mark_broken(state, edge, result);
+  break_edges(topology, state, edges, result);
+  return result;
+}
+
+void break_edges(const BreakingTopology& topology, BreakingState& state,
+                 std::span<const std::int32_t> edges, BreakingResult& result) {
+  result.broken_edges.clear();
+  result.invalid_cells.clear();
+  result.exposed_faces.clear();
+  for (std::int32_t edge : edges) {
+    assert(edge >= 0 && edge < std::ssize(state.edge_broken));
+    mark_broken(state, edge, result);
+  }
+  std::sort(result.broken_edges.begin(), result.broken_edges.end());
   // All marks first: whether an edge is shared by a valid cell has to be asked after the last one.
   for (std::int32_t edge : result.broken_edges) invalidate_cells_of(topology, state, edge, result);
+  prefetch_around(topology, state, result.invalid_cells);
   break_unshared_edges(topology, state, result);
   expose_faces(topology, state, result);
   for (std::int32_t edge : result.broken_edges) hide_sheet_faces_of(topology, state, edge);
-  return result;
 }
 
 BreakingResult break_edges(PhysicalModel& model, std::span<const EdgeId> edges) {

@@ -37,7 +37,7 @@ struct BreakingState {
 };
 
 struct BreakingResult {
-  std::vector<std::int32_t> broken_edges;   // marked and consequent, each once, in order of breaking
+  std::vector<std::int32_t> broken_edges;  // marked and consequent, each once, in order of breaking
   std::vector<std::int32_t> invalid_cells;  // newly invalid
   std::vector<std::int32_t> exposed_faces;  // newly external
 };
@@ -52,6 +52,10 @@ BreakingState breaking_state(const PhysicalModel& model, const BreakingTopology&
 // The result does not depend on the order of `edges`. Edges already broken are ignored.
 BreakingResult break_edges(const BreakingTopology& topology, BreakingState& state,
                            std::span<const std::int32_t> edges);
+
+// The same into `result`, whose storage is used again.
+void break_edges(const BreakingTopology& topology, BreakingState& state,
+                 std::span<const std::int32_t> edges, BreakingResult& result);
 
 // The same on an authored model.
 BreakingResult break_edges(PhysicalModel& model, std::span<const EdgeId> edges);

@@ -1,5 +1,6 @@
 #include "core/operators/gluing_operator.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/model/diagnostic_list.h"
@@ -9,9 +10,9 @@
 namespace limber {
 namespace {
 
-// Rounding in the positions must not decide about points that were put exactly `distance` apart;
-// points nearer than this share of the distance coincide.
-constexpr double kSlack = 1e-9;
+// Points nearer than this share of the glue distance coincide: a bond that short would be torn by
+// any motion at all.
+constexpr double kCoincidence = 1e-9;
 
 bool finite_and_not_negative(double x) { return std::isfinite(x) && x >= 0.0; }
 
@@ -27,6 +28,8 @@ void require_usable(const GlueBond& bond) {
     refuse("damping (N s/m)", bond.damping, "give a finite value, 0 or above");
   if (!(bond.break_strain > 0.0))
     refuse("break strain", bond.break_strain, "give a strain above 0, or kUnbreakable");
+  if (!(bond.crush_strain > 0.0))
+    refuse("crush strain", bond.crush_strain, "give a strain above 0, or kUnbreakable");
 }
 
 // "handle: point 3, 1.5 mm from spout: point 9" and what can be done about it.
@@ -53,12 +56,12 @@ void require_usable(const GlueBond& bond) {
 
 std::vector<PointPair> pairs_to_bond(const PhysicalModel& a, const PhysicalModel& b,
                                      const GlueBond& bond) {
-  const std::vector<PointPair> pairs =
-      pairs_within(a.geometry.points, b.geometry.points, bond.distance * (1.0 + kSlack));
+  std::vector<PointPair> pairs = pairs_within(a.geometry.points, b.geometry.points, bond.distance);
   if (pairs.empty()) throw_too_far(a, b, bond);
   for (const PointPair& pair : pairs)
-    if (pair.distance <= bond.distance * kSlack) throw_coincident(a, b, pair);
-  return pairs;
+    if (pair.distance <= std::max(bond.distance * kCoincidence, pair.rounding))
+      throw_coincident(a, b, pair);
+  return bond.one_to_one ? one_to_one(std::move(pairs)) : pairs;
 }
 
 template <class IdType>
@@ -112,7 +115,7 @@ PhysicalModel side_by_side(const PhysicalModel& a, const PhysicalModel& b) {
   both.edges.append(b.edges);
   both.faces.append(b.faces);
   both.cells.append(b.cells);
-  both.surfaces.insert(both.surfaces.end(), b.surfaces.begin(), b.surfaces.end());
+  both.parts.insert(both.parts.end(), b.parts.begin(), b.parts.end());
   return both;
 }
 
@@ -123,7 +126,8 @@ void add_bond(PhysicalModel& both, PointId end_a, PointId end_b, double length_m
   both.edges.push_back({.stiffness = bond.stiffness,
                         .damping = bond.damping,
                         .rest_length = length_m,
-                        .break_threshold = bond.break_strain * length_m});
+                        .break_threshold = bond.break_strain * length_m,
+                        .crush_threshold = bond.crush_strain * length_m});
 }
 
 // A subobject of edges alone: its other ranges are empty and stand at the end, so that the
@@ -149,11 +153,11 @@ GlueResult glue(const PhysicalModel& a, const PhysicalModel& b, const GlueBond& 
 
   PhysicalModel both = side_by_side(a, b);
   Subobject glued = glue_subobject(both, "glue: " + a.name + " + " + b.name);
-  for (const auto& [end_a, end_b, distance] : pairs)
-    add_bond(both, end_a, PointId(end_b.index() + a.points.size()), distance, bond);
+  for (const PointPair& pair : pairs)
+    add_bond(both, pair.a, PointId(pair.b.index() + a.points.size()), pair.distance, bond);
   glued.edges.end = static_cast<std::int32_t>(both.geometry.edges.size());
   both.geometry.subobjects.push_back(std::move(glued));
-  both.surfaces.emplace_back();
+  both.parts.emplace_back();
   return {std::move(both), pairs.size()};
 }
 

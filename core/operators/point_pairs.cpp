@@ -5,10 +5,16 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <tuple>
 
 namespace limber {
 namespace {
+
+double rounding_at(double coordinate_m) {
+  constexpr double kUnits = 16.0;  // in the last place
+  return kUnits * std::numeric_limits<double>::epsilon() * coordinate_m;
+}
 
 struct Box {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -29,8 +35,12 @@ Box bounds(const PointPositions& points) {
 class PointGrid {
  public:
   PointGrid(const PointPositions& points, double distance_m) : box_(bounds(points)) {
-    // Side no smaller than a millionth of the extent: coordinates stay below 2^20.
-    side_ = std::max(distance_m, (box_.high - box_.low).maxCoeff() / 1e6);
+    // Side no smaller than a millionth of the extent: coordinates stay below 2^20. A little more
+    // than the distance: rounding must not put two points that far apart beyond the next cube.
+    const double largest =
+        std::max(box_.low.cwiseAbs().maxCoeff(), box_.high.cwiseAbs().maxCoeff());
+    side_ = std::max(distance_m * (1.0 + 1e-6), (box_.high - box_.low).maxCoeff() / 1e6) +
+            2.0 * rounding_at(largest);
     if (!(side_ > 0.0)) side_ = 1.0;  // one place, distance 0: any side will do
     for (PointId p : ids_of(points)) sorted_.push_back({key(coordinates(points[p])), p});
     std::sort(sorted_.begin(), sorted_.end());
@@ -89,6 +99,28 @@ std::vector<PointId> sorted_along(const PointPositions& points, int axis) {
   return ids;
 }
 
+PointPair pair_of(const PointPositions& a, PointId p, const PointPositions& b, PointId q) {
+  return {p, q, (b[q] - a[p]).norm(), distance_rounding(a[p], b[q])};
+}
+
+// By distance; what differs by rounding alone counts as the same and goes by id.
+void sort_nearest_first(std::vector<PointPair>& pairs) {
+  const auto nearer = [](const PointPair& p, const PointPair& q) {
+    return std::tie(p.distance, p.a, p.b) < std::tie(q.distance, q.a, q.b);
+  };
+  const auto by_id = [](const PointPair& p, const PointPair& q) {
+    return std::tie(p.a, p.b) < std::tie(q.a, q.b);
+  };
+  std::sort(pairs.begin(), pairs.end(), nearer);
+  for (auto first = pairs.begin(); first != pairs.end();) {
+    const double most = first->distance + 2.0 * first->rounding;  // either may be off
+    const auto last = std::find_if(first, pairs.end(),
+                                   [&](const PointPair& pair) { return pair.distance > most; });
+    std::sort(first, last, by_id);
+    first = last;
+  }
+}
+
 void keep_nearer(PointPair& best, const PointPair& candidate) {
   if (std::tie(candidate.distance, candidate.a, candidate.b) <
       std::tie(best.distance, best.a, best.b))
@@ -97,6 +129,10 @@ void keep_nearer(PointPair& best, const PointPair& candidate) {
 
 }  // namespace
 
+double distance_rounding(const Vec3& a, const Vec3& b) {
+  return rounding_at(std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()));
+}
+
 std::vector<PointPair> pairs_within(const PointPositions& a, const PointPositions& b,
                                     double distance_m) {
   std::vector<PointPair> pairs;
@@ -104,10 +140,23 @@ std::vector<PointPair> pairs_within(const PointPositions& a, const PointPosition
   const PointGrid grid(b, distance_m);
   for (PointId p : ids_of(a))
     for (PointId q : grid.near(a[p])) {
-      const double distance = (b[q] - a[p]).norm();
-      if (distance <= distance_m) pairs.push_back({p, q, distance});
+      const PointPair pair = pair_of(a, p, b, q);
+      if (pair.distance - pair.rounding <= distance_m) pairs.push_back(pair);
     }
   return pairs;
+}
+
+std::vector<PointPair> one_to_one(std::vector<PointPair> pairs) {
+  sort_nearest_first(pairs);
+  std::set<PointId> taken_a, taken_b;
+  std::vector<PointPair> chosen;
+  for (const PointPair& pair : pairs) {
+    if (taken_a.contains(pair.a) || taken_b.contains(pair.b)) continue;
+    taken_a.insert(pair.a);
+    taken_b.insert(pair.b);
+    chosen.push_back(pair);
+  }
+  return chosen;
 }
 
 // Sweeps along one axis and gives up on a point once that axis alone is further than the best pair.
@@ -115,7 +164,8 @@ PointPair nearest_pair(const PointPositions& a, const PointPositions& b) {
   assert(!a.empty() && !b.empty());
   const int axis = separating_axis(bounds(a), bounds(b));
   const std::vector<PointId> sorted = sorted_along(b, axis);
-  PointPair best{PointId(), PointId(), std::numeric_limits<double>::infinity()};
+  PointPair best;
+  best.distance = std::numeric_limits<double>::infinity();
   for (PointId p : ids_of(a)) {
     const auto too_far = [&](PointId q) {
       return std::abs(b[q][axis] - a[p][axis]) > best.distance;
@@ -123,9 +173,9 @@ PointPair nearest_pair(const PointPositions& a, const PointPositions& b) {
     const auto middle = std::partition_point(sorted.begin(), sorted.end(),
                                              [&](PointId q) { return b[q][axis] < a[p][axis]; });
     for (auto q = middle; q != sorted.end() && !too_far(*q); ++q)
-      keep_nearer(best, {p, *q, (b[*q] - a[p]).norm()});
+      keep_nearer(best, pair_of(a, p, b, *q));
     for (auto q = middle; q != sorted.begin() && !too_far(*(q - 1)); --q)
-      keep_nearer(best, {p, *(q - 1), (b[*(q - 1)] - a[p]).norm()});
+      keep_nearer(best, pair_of(a, p, b, *(q - 1)));
   }
   return best;
 }

@@ -18,12 +18,15 @@ constexpr int kContactRefreshInterval = 4;
 
 }  // namespace
 
-double TimeOperator::largest_step() const {
+double TimeOperator::largest_step(const Environment& environment) const {
+  const bool penalty = environment.ground && std::isfinite(environment.ground->stiffness);
+  const double stiffness = penalty ? environment.ground->stiffness : 0.0;
+  const double damping = penalty ? environment.ground->damping : 0.0;
   std::vector<bool> dynamic(lattice_.objects.size(), false);
   for (std::int32_t p : lattice_.dynamic_points) dynamic[lattice_.point_object[p]] = true;
   double step = kUnbreakable;
   for (std::size_t o = 0; o < lattice_.objects.size(); ++o) {
-    if (dynamic[o]) step = std::min(step, lattice_.objects[o].largest_step);
+    if (dynamic[o]) step = std::min(step, limber::largest_step(lattice_.objects[o], stiffness, damping));
   }
   return step;
 }
@@ -31,28 +34,39 @@ double TimeOperator::largest_step() const {
 void TimeOperator::roles_changed() {
   pieces_stale_ = true;
   contacts_stale_ = true;
+  faces_stale_ = true;
   slack_ = 0;
 }
 
 const Components& TimeOperator::pieces() {
-  if (pieces_stale_) pieces_ = components(lattice_);
+  if (pieces_stale_) pieces_.reset(lattice_);
   pieces_stale_ = false;
-  return pieces_;
+  return pieces_.components();
 }
 
-StepReport TimeOperator::advance(int substeps, double dt, const Vec3& gravity_m_s2,
+StepReport TimeOperator::advance(int substeps, double dt, const Environment& environment,
                                  SubstepCoupling* coupling) {
   StepReport report;
+  const double start = time_;
+  if (environment.ground) ground_.stop_what_enters(lattice_, *environment.ground, report.ground);
   for (int n = 0; n < substeps; ++n) {
     if (n % kContactRefreshInterval == 0) refresh_contacts();
-    apply_gravity(gravity_m_s2);
-    apply_springs();
-    contacts_.add_forces(lattice_);
-    if (coupling) coupling->add_forces(lattice_, dt);
-    integrate(dt);
+    refresh_faces(environment);
+    if (integrator_ == Integrator::kSymplecticEuler) {
+      step_symplectic(environment, dt, coupling);
+    } else {
+      const bool fourth_order = integrator_ == Integrator::kRungeKutta4;
+      step_runge_kutta(fourth_order ? kRungeKutta4Tableau : kExplicitEulerTableau, environment, dt,
+                       coupling);
+    }
+    if (environment.ground) {
+      const double moved_share = integrator_ == Integrator::kSymplecticEuler ? 1.0 : 0.5;
+      ground_.finish_step(lattice_, *environment.ground, dt, moved_share, report.ground);
+    }
     if (coupling) coupling->advance(lattice_, dt);
     report.spring_updates += lattice_.active.size() - slack_;
-    if (!overstretched_.empty()) break_overstretched(n * dt, report);
+    if (!overstretched_.empty()) break_overstretched(report);
+    time_ = start + (n + 1) * dt;
     if (n % kDampingInterval == kDampingInterval - 1 || n == substeps - 1) {
       sample_load();
       const int since = n % kDampingInterval + 1;
@@ -77,6 +91,12 @@ void TimeOperator::refresh_contacts() {
   contacts_stale_ = carried_stale_ = false;
 }
 
+void TimeOperator::refresh_faces(const Environment& environment) {
+  if (!environment.air || !faces_stale_) return;
+  faces_ = faces_in_air(lattice_, PointRole::kDynamic);
+  faces_stale_ = false;
+}
+
 void TimeOperator::apply_gravity(const Vec3& gravity) {
   for (std::int32_t p : lattice_.dynamic_points) lattice_.force[p] = lattice_.mass[p] * gravity;
   for (std::int32_t p : lattice_.carried_points) lattice_.force[p].setZero();
@@ -84,11 +104,16 @@ void TimeOperator::apply_gravity(const Vec3& gravity) {
 
 void TimeOperator::apply_springs() {
   overstretched_.clear();
-  const std::size_t count = lattice_.active.size();
+  apply_springs<false>(0, lattice_.first_breakable);
+  apply_springs<true>(lattice_.first_breakable, lattice_.active.size());
+}
+
+template <bool kMayBreak>
+void TimeOperator::apply_springs(std::size_t from, std::size_t to) {
   const Spring* springs = lattice_.active.data();
   const PointMotion* motion = lattice_.motion.data();
   Vec3* force = lattice_.force.data();
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = from; i < to; ++i) {
     const Spring& s = springs[i];
     const SpringStretch state =
         spring_stretch(motion[s.b].position - motion[s.a].position,
@@ -97,41 +122,138 @@ void TimeOperator::apply_springs() {
         spring_tension(s.stiffness, s.damping, state.stretch, state.rate) * state.direction;
     force[s.a] += pull;
     force[s.b] -= pull;
-    if (state.stretch > s.break_threshold) {
-      overstretched_.push_back(static_cast<std::int32_t>(i));
+    if constexpr (kMayBreak) {
+      if (state.stretch > s.break_threshold || -state.stretch > s.crush_threshold) {
+        overstretched_.push_back(static_cast<std::int32_t>(i));
+      }
     }
   }
+}
+
+void TimeOperator::sum_forces(const Environment& environment, double time, double weight) {
+  summed_at_ = time;
+  apply_gravity(environment.gravity);
+  apply_springs();
+  contacts_.add_forces(lattice_);
+  if (environment.air) {
+    add_face_forces(faces_, *environment.air, time, lattice_.motion, lattice_.force);
+  }
+  for (std::size_t i = 0; i < coupling_force_.size(); ++i) {
+    lattice_.force[lattice_.dynamic_points[i]] += coupling_force_[i];
+  }
+  if (environment.ground) ground_.add_forces(lattice_, *environment.ground, weight);
+}
+
+void TimeOperator::step_symplectic(const Environment& environment, double dt,
+                                   SubstepCoupling* coupling) {
+  sum_forces(environment, time_, 1.0);
+  if (coupling) coupling->add_forces(lattice_, dt);
+  integrate(dt);
 }
 
 void TimeOperator::integrate(double dt) {
   for (std::int32_t p : lattice_.dynamic_points) {
     PointMotion& motion = lattice_.motion[p];
-    motion.velocity += lattice_.force[p] * (dt / lattice_.mass[p]);
+    motion.velocity += lattice_.force[p] * (dt * lattice_.inverse_mass[p]);
     motion.position += motion.velocity * dt;
   }
 }
 
-void TimeOperator::break_overstretched(double time, StepReport& report) {
-  std::vector<std::int32_t> edges;
-  for (std::int32_t i : overstretched_) {
-    const Spring& s = lattice_.active[i];
-    edges.push_back(lattice_.active_edge[i]);
-    const Vec3 middle = 0.5 * (lattice_.motion[s.a].position + lattice_.motion[s.b].position);
-    report.breaks.push_back({time, edges.back(), middle});
+void TimeOperator::step_runge_kutta(const ButcherTableau& tableau, const Environment& environment,
+                                    double dt, SubstepCoupling* coupling) {
+  const std::size_t count = lattice_.dynamic_points.size();
+  evaluate_coupling(dt, coupling);
+  start_.resize(count);
+  slopes_.resize(count * tableau.stages);
+  for (std::size_t i = 0; i < count; ++i) start_[i] = lattice_.motion[lattice_.dynamic_points[i]];
+  for (int stage = 0; stage < tableau.stages; ++stage) {
+    move_to_stage(tableau, stage, dt);
+    sum_forces(environment, time_ + tableau.c[stage] * dt, tableau.b[stage]);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int32_t p = lattice_.dynamic_points[i];
+      slopes_[stage * count + i] = {lattice_.motion[p].velocity,
+                                    lattice_.force[p] * lattice_.inverse_mass[p]};
+    }
   }
-  const BreakingResult result = break_edges(lattice_.topology, lattice_.breaking, edges);
-  slacken(lattice_, result.broken_edges);
-  slack_ += result.broken_edges.size();
-  report.broken_edges += result.broken_edges.size();
-  pieces_stale_ = true;
-  contacts_stale_ = true;
+  complete_stages(tableau, dt);
+  coupling_force_.clear();
+}
+
+void TimeOperator::evaluate_coupling(double dt, SubstepCoupling* coupling) {
+  if (!coupling) return;
+  apply_gravity(Vec3::Zero());
+  coupling->add_forces(lattice_, dt);
+  for (std::int32_t p : lattice_.dynamic_points) coupling_force_.push_back(lattice_.force[p]);
+}
+
+void TimeOperator::move_to_stage(const ButcherTableau& tableau, int stage, double dt) {
+  const std::size_t count = start_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    PointMotion motion = start_[i];
+    for (int j = 0; j < stage; ++j) {
+      const PointMotion& slope = slopes_[j * count + i];
+      motion.position += dt * tableau.a[stage][j] * slope.position;
+      motion.velocity += dt * tableau.a[stage][j] * slope.velocity;
+    }
+    lattice_.motion[lattice_.dynamic_points[i]] = motion;
+  }
+}
+
+void TimeOperator::complete_stages(const ButcherTableau& tableau, double dt) {
+  const std::size_t count = start_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    PointMotion motion = start_[i];
+    for (int stage = 0; stage < tableau.stages; ++stage) {
+      const PointMotion& slope = slopes_[stage * count + i];
+      motion.position += dt * tableau.b[stage] * slope.position;
+      motion.velocity += dt * tableau.b[stage] * slope.velocity;
+    }
+    lattice_.motion[lattice_.dynamic_points[i]] = motion;
+  }
+}
+
+void TimeOperator::break_overstretched(StepReport& report) {
+  std::vector<std::int32_t> edges;
+  for (std::int32_t i : overstretched_) edges.push_back(lattice_.active_edge[i]);
+  pieces();  // as they were
+  const std::size_t first = report.breaks.size();
+  for (std::int32_t e : edges) report.breaks.push_back(event_of(e));
+  break_edges(lattice_.topology, lattice_.breaking, edges, broken_);
+  slacken(lattice_, broken_.broken_edges);
+  slack_ += broken_.broken_edges.size();
+  report.broken_edges += broken_.broken_edges.size();
+  if (boundary_) boundary_->update(lattice_.topology, broken_);
+  const auto splits = pieces_.edges_broken(lattice_, broken_.broken_edges);
+  for (const auto& split : splits) report.splits.push_back({summed_at_, split.from, split.to});
+  for (std::size_t i = first; i < report.breaks.size(); ++i) {
+    BreakEvent& event = report.breaks[i];
+    event.piece = pieces_.components().label[lattice_.springs[event.edge].a];
+  }
+  contacts_.edges_broken(lattice_, broken_.broken_edges);
+  contacts_stale_ = contacts_stale_ || !splits.empty();
+  faces_stale_ = true;
+}
+
+// Before the edge breaks: its cells are still valid.
+BreakEvent TimeOperator::event_of(std::int32_t edge) const {
+  const Spring& s = lattice_.springs[edge];
+  BreakEvent event;
+  event.time = summed_at_;
+  event.edge = edge;
+  event.object = lattice_.point_object[s.a];
+  event.where = 0.5 * (lattice_.motion[s.a].position + lattice_.motion[s.b].position);
+  for (std::int32_t cell : lattice_.topology.edge_cells[edge]) {
+    if (event.cell < 0 && lattice_.breaking.cell_valid[cell]) event.cell = cell;
+  }
+  return event;
 }
 
 void TimeOperator::sample_load() {
-  for (const Spring& s : lattice_.active) {
-    if (s.break_threshold == kUnbreakable) continue;
+  for (std::size_t i = lattice_.first_breakable; i < lattice_.active.size(); ++i) {
+    const Spring& s = lattice_.active[i];
     const Vec3 d = lattice_.motion[s.b].position - lattice_.motion[s.a].position;
-    const double load = (d.norm() - s.rest_length) / s.break_threshold;
+    const double stretch = d.norm() - s.rest_length;
+    const double load = std::max(stretch / s.break_threshold, -stretch / s.crush_threshold);
     lattice_.peak_load[s.a] = std::max(lattice_.peak_load[s.a], load);
   }
 }

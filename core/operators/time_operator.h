@@ -3,49 +3,81 @@
 #include <vector>
 
 #include "core/contact/point_contacts.h"
-#include "core/dynamics/components.h"
+#include "core/dynamics/component_tracker.h"
 #include "core/dynamics/lattice.h"
+#include "core/dynamics/runge_kutta.h"
+#include "core/environment/environment.h"
+#include "core/environment/face_forces.h"
+#include "core/environment/ground_contact.h"
+#include "core/operators/boundary_tracker.h"
 
 namespace limber {
 
-// What the world outside of the lattice does in every substep: the ground, rigid bodies.
+// What the world outside of the lattice does in every substep: rigid bodies.
 class SubstepCoupling {
  public:
   virtual ~SubstepCoupling() = default;
-  // Adds to lattice.force of dynamic and carried points.
+  // Adds to lattice.force of dynamic and carried points. Once a substep.
   virtual void add_forces(Lattice& lattice, double dt) = 0;
   // Reads lattice.force of carried points and moves them on by dt.
   virtual void advance(Lattice& lattice, double dt) = 0;
 };
 
 struct BreakEvent {
-  double time = 0.0;      // s since the start of the call
-  std::int32_t edge = 0;  // the edge that was overstretched; what followed from it is in the state
-  Vec3 where;             // m
+  double time = 0.0;         // s, of the operator's clock
+  std::int32_t edge = 0;     // the edge that bore too much
+  std::int32_t cell = -1;    // the first cell it took with it, if any
+  std::int32_t piece = 0;    // label in pieces() of its first end, after the substep
+  std::int32_t object = 0;
+  Vec3 where;                // m
+};
+
+// A piece came off another: labels of pieces(), valid until the next roles_changed().
+struct SplitEvent {
+  double time = 0.0;  // s, of the operator's clock
+  std::int32_t from = 0, to = 0;
 };
 
 struct StepReport {
   std::uint64_t spring_updates = 0;
-  double damped_J = 0.0;           // taken out by internal damping
-  std::vector<BreakEvent> breaks;  // in order of time
-  std::size_t broken_edges = 0;    // marked and consequent
+  double damped_J = 0.0;             // taken out by internal damping
+  GroundReport ground;
+  std::vector<BreakEvent> breaks;    // in order of time
+  std::vector<SplitEvent> splits;    // in order of time
+  std::size_t broken_edges = 0;      // marked and consequent
+};
+
+enum class Integrator {
+  kSymplecticEuler,  // v += f/m dt, x += v dt: the default
+  kExplicitEuler,    // for comparison only
+  kRungeKutta4,      // the accuracy reference
 };
 
 // The time operator (paper, section 5.1): forces of springs and dampers, gravity, point-point
-// penalty and the coupling are summed at the points and integrated by semi-implicit Euler,
-// v += f/m dt, x += v dt. The breaking operator runs inside it, as the paper has it. Every
+// penalty, air, ground and the coupling are summed at the points and integrated. The breaking
+// operator runs inside it, as the paper has it, at the end of each substep. Every
 // `kDampingInterval` substeps the internal damping draws each connected piece towards its rigid
 // motion, and the load on the springs is sampled into lattice.peak_load.
+//
+// Pinned points stay where they are; lattice.force holds what they carry. Runge-Kutta methods
+// evaluate the coupling once a substep, everything else at every stage.
 class TimeOperator {
  public:
-  explicit TimeOperator(Lattice& lattice) : lattice_(lattice) {}
+  explicit TimeOperator(Lattice& lattice, Integrator integrator = Integrator::kSymplecticEuler)
+      : lattice_(lattice), integrator_(integrator) {}
 
-  // Largest step that is stable for every object with a dynamic point, s; infinity without springs.
-  double largest_step() const;
+  // Largest step of symplectic Euler that is stable for every object with a dynamic point in this
+  // environment, s; infinity without springs or anything else that pushes. Drag is left out: it has
+  // to be faster than a substep to matter.
+  double largest_step(const Environment& environment = kEmptySpace) const;
+
+  // The clock that wind and events go by, s. Starts at 0, runs in advance().
+  double time() const { return time_; }
+  void set_time(double time_s) { time_ = time_s; }
 
   // Integrates `substeps` of `dt` (s). Throws SimulationError that names the point and its object
   // when a position or velocity is no longer finite.
-  StepReport advance(int substeps, double dt, const Vec3& gravity_m_s2,
+  StepReport advance(int substeps, double dt, const Environment& environment,
                      SubstepCoupling* coupling = nullptr);
 
   // Springs, dampers, break check and integration alone, in free space: what a micro-benchmark
@@ -55,27 +87,54 @@ class TimeOperator {
   // Pieces as of the last substep.
   const Components& pieces();
 
+  // Has somebody's boundary follow every break from now on; null: nobody's.
+  void keep_boundary(BoundaryTracker* tracker) { boundary_ = tracker; }
+
   // To be told after rebuild_active(), and after rebuild_carried() alone.
   void roles_changed();
   void carried_changed() { carried_stale_ = true; }
 
  private:
   void refresh_contacts();
+  void refresh_faces(const Environment& environment);
   void apply_gravity(const Vec3& gravity);
   void apply_springs();
+  template <bool kMayBreak>
+  void apply_springs(std::size_t from, std::size_t to);
+  void sum_forces(const Environment& environment, double time, double weight);
+  void step_symplectic(const Environment& environment, double dt, SubstepCoupling* coupling);
+  void step_runge_kutta(const ButcherTableau& tableau, const Environment& environment, double dt,
+                        SubstepCoupling* coupling);
+  void evaluate_coupling(double dt, SubstepCoupling* coupling);
+  void move_to_stage(const ButcherTableau& tableau, int stage, double dt);
+  void complete_stages(const ButcherTableau& tableau, double dt);
   void integrate(double dt);
-  void break_overstretched(double time, StepReport& report);
+  void break_overstretched(StepReport& report);
+  BreakEvent event_of(std::int32_t edge) const;
   void sample_load();
   void require_finite() const;
 
   Lattice& lattice_;
+  Integrator integrator_;
+  double time_ = 0.0;
   PointContacts contacts_;
-  Components pieces_;
+  GroundContact ground_;
+  std::vector<DragFace> faces_;  // that feel the air
+  ComponentTracker pieces_;
+  BoundaryTracker* boundary_ = nullptr;
+  BreakingResult broken_;  // of the last substep in which something broke
   bool pieces_stale_ = true;
   bool contacts_stale_ = true;
   bool carried_stale_ = false;
-  std::vector<std::int32_t> overstretched_;  // active springs of this substep
+  bool faces_stale_ = true;
+  std::vector<std::int32_t> overstretched_;  // active springs, when forces were summed last
+  double summed_at_ = 0.0;                   // s, when that was
   std::size_t slack_ = 0;                    // active springs that broke since the last rebuild
+
+  // Runge-Kutta: shape (dynamic points), or (stages, dynamic points)
+  std::vector<PointMotion> start_;
+  std::vector<PointMotion> slopes_;  // velocity and acceleration
+  std::vector<Vec3> coupling_force_;
 };
 
 // Substeps between two applications of internal damping. 32 substeps are a small part of its time

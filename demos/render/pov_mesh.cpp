@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "demos/render/crease_normals.h"
@@ -37,14 +38,16 @@ std::string amber(const SurfaceProperties& s) {
       pov_colour(colour), pov(s.transparency));
 }
 
-// Mottled at the size of a grain, bumpy, without any gloss.
+// Mottled at the size of a grain, bumpy, without any gloss; glass stays clear where it broke.
 std::string broken(const SurfaceProperties& s, bool flexible) {
   const Vec3 clay = mixed(kClay, s.colour, 0.12);
   const Vec3 light = flexible ? mixed(clay, kAmber, 0.45) : Vec3(1.5 * clay);
   return fmt::format(
-      "texture {{ pigment {{ granite colour_map {{ [0.2 {}] [0.7 {}] }} scale 0.012 }} "
+      "texture {{ pigment {{ granite colour_map {{ [0.2 {} transmit {}] [0.7 {} transmit {}] }} "
+      "scale 0.012 }} "
       "normal {{ granite 0.5 scale 0.008 }} finish {{ diffuse 0.8 ambient 0 emission {} }} }}\n",
-      pov_colour(0.6 * clay), pov_colour(light), flexible ? 0.15 : 0.0);
+      pov_colour(0.6 * clay), pov(s.transparency), pov_colour(light), pov(s.transparency),
+      flexible ? 0.15 : 0.0);
 }
 
 constexpr int kLooks = 4;  // textures per subobject, in the order of look_of
@@ -142,13 +145,39 @@ std::string lattice(const Snapshot::Body& body, const std::vector<std::size_t>& 
   return text + "texture { LatticeLine }\n}\n";
 }
 
+constexpr double kOpaque = 0.0;  // instead of an index of refraction
+
+double refraction_of(const SurfaceModel& surface, const SurfaceTriangle& t) {
+  const auto subobject = static_cast<std::size_t>(std::max(t.subobject, 0));
+  if (subobject >= surface.subobject_surfaces.size()) return kOpaque;
+  const SurfaceProperties& s = surface.subobject_surfaces[subobject];
+  return s.transparency > 0.0 ? s.index_of_refraction : kOpaque;
+}
+
+// POV-Ray's meshes have one interior each: the triangles by what light does behind them.
+std::map<double, std::vector<std::size_t>> by_refraction(const SurfaceModel& surface,
+                                                         const std::vector<std::size_t>& drawn) {
+  std::map<double, std::vector<std::size_t>> parts;
+  for (std::size_t t : drawn) parts[refraction_of(surface, surface.triangles[t])].push_back(t);
+  return parts;
+}
+
+std::string mesh(const Snapshot::Body& body, double refraction,
+                 const std::vector<std::size_t>& drawn) {
+  const std::string interior =
+      refraction == kOpaque ? "" : fmt::format("interior {{ ior {} }}\n", pov(refraction));
+  return "mesh2 {\n" + vertices(body.surface) + normals(body.surface, drawn) +
+         texture_list(body.surface) + faces(body, drawn) + interior + "}\n";
+}
+
 }  // namespace
 
 std::string pov_body(const Snapshot::Body& body) {
   const auto drawn = drawable_triangles(body.surface);
-  if (drawn.empty()) return "";
-  return "mesh2 {\n" + vertices(body.surface) + normals(body.surface, drawn) +
-         texture_list(body.surface) + faces(body, drawn) + "}\n" + lattice(body, drawn);
+  std::string text;
+  for (const auto& [refraction, triangles] : by_refraction(body.surface, drawn))
+    text += mesh(body, refraction, triangles);
+  return text + lattice(body, drawn);
 }
 
 }  // namespace limber::demos

@@ -22,7 +22,7 @@ PhysicalModel cube(const std::string& name, int cells, const Material& material,
   const Vec3 corner = centre - Vec3::Constant(0.5 * kSide);
   PhysicalModel model = with_material(
       box_lattice({cells, cells, cells}, Vec3::Constant(spacing), corner, name), name, material);
-  model.surfaces[0].colour = colour;
+  model.parts[0].surface.colour = colour;
   return model;
 }
 

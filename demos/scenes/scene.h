@@ -1,9 +1,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/environment/environment.h"
 #include "core/model/physical_model.h"
 
 namespace limber::demos {
@@ -32,6 +34,7 @@ struct Scene {
   double seconds = 4.0;      // default length, s
   double tick = 1.0 / 60.0;  // default step of the rigid world, s
   Vec3 gravity = {0.0, -9.81, 0.0};
+  std::optional<Air> air;  // none: vacuum
   bool floor = true;
   double floor_friction = 0.5;
   std::vector<RigidBox> boxes;

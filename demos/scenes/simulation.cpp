@@ -100,6 +100,7 @@ struct Simulation::State {
       boxes.push_back(
           stage.add_box({box.half_extents, box.centre, box.mass, box.friction, box.restitution}));
     }
+    stage.co_simulation().set_air(scene.air);
     for (const PhysicalModel& model : scene.objects) {
       remember_start(model);
       stage.co_simulation().add(model);
@@ -240,7 +241,7 @@ Snapshot Simulation::snapshot() const {
   for (std::size_t o = 0; o < limber.object_count(); ++o) {
     Snapshot::Body body;
     body.name = state_->scene.objects[o].name;
-    body.surface = boundary(limber.model(o));
+    body.surface = limber.surface(o);
     const std::vector<bool> flexible = limber.flexible_points(o);
     for (const SurfaceTriangle& triangle : body.surface.triangles) {
       const auto corner = static_cast<std::size_t>(triangle.corners[0]);

@@ -216,7 +216,7 @@ PhysicalModel part(const std::string& name, const RingSurface& surface, const Ve
   builder.begin_subobject(name);
   add_ring_shell(builder, surface, {options.spacing, options.wall_thickness});
   PhysicalModel model = with_material(builder.finish(), name, stoneware(options));
-  model.surfaces[0].colour = colour;
+  model.parts[0].surface.colour = colour;
   return model;
 }
 

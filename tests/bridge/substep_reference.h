@@ -24,7 +24,7 @@ class SubstepReference : public SubstepCoupling {
 
   void step(double dt) {
     const double gravity = world_->getGravity().y();
-    time_.advance(1, dt, Vec3(0.0, gravity, 0.0), this);
+    time_.advance(1, dt, {.gravity = {0.0, gravity, 0.0}}, this);
     world_.step(dt);
   }
 

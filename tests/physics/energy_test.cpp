@@ -34,7 +34,7 @@ struct EnergyRange {
 EnergyRange energies(Lattice& lattice, TimeOperator& time, int samples, double dt) {
   EnergyRange range;
   for (int n = 0; n < samples; ++n) {
-    time.advance(7, dt, Vec3::Zero());  // no multiple of a period
+    time.advance(7, dt, kEmptySpace);  // no multiple of a period
     const double energy = test::totals(lattice).energy();
     range.mean += energy / samples;
     range.least = std::min(range.least, energy);
@@ -52,7 +52,7 @@ TEST(Energy, OfAnUndampedLatticeIsBoundedAndDoesNotDriftOver100000Steps) {
   TimeOperator time(lattice);
   const double dt = kShare * 2.0 / highest_frequency(lattice.objects[0].authored).omega_max;
   const EnergyRange first = energies(lattice, time, 2000, dt);
-  time.advance(100000 - 2 * 14000, dt, Vec3::Zero());
+  time.advance(100000 - 2 * 14000, dt, kEmptySpace);
   const EnergyRange last = energies(lattice, time, 2000, dt);
   EXPECT_NEAR(last.mean, first.mean, 0.01 * first.mean);
   EXPECT_GT(std::min(first.least, last.least), start / (1.0 + kShare) * 0.95);
@@ -80,7 +80,7 @@ TEST(Energy, LostBySpringDampingIsItsWork) {
   for (int n = 0; n < 200; ++n) {
     for (int i = 0; i < 50; ++i) {
       work += damping_power(lattice) * dt;
-      time.advance(1, dt, Vec3::Zero());
+      time.advance(1, dt, kEmptySpace);
     }
     const double now = test::totals(lattice).energy();
     EXPECT_LT(now, last) << "sample " << n;
@@ -98,7 +98,7 @@ TEST(Energy, LostByInternalDampingIsReported) {
   const double start = test::totals(lattice).energy();
   TimeOperator time(lattice);
   const double dt = 0.01 * time.largest_step();
-  const StepReport report = time.advance(8000, dt, Vec3::Zero());
+  const StepReport report = time.advance(8000, dt, kEmptySpace);
   const double lost = start - test::totals(lattice).energy();
   EXPECT_GT(lost, 0.3 * start);
   EXPECT_NEAR(report.damped_J, lost, 0.01 * start);
@@ -111,7 +111,7 @@ TEST(LargestStep, IsStable) {
     Lattice lattice = shaken_block({3, 2, 2}, damping);
     const double start = test::totals(lattice).energy();
     TimeOperator time(lattice);
-    time.advance(20000, time.largest_step(), Vec3::Zero());
+    time.advance(20000, time.largest_step(), kEmptySpace);
     // Undamped, the highest modes' energy swings by the factor 1 / (1 - 0.92) at most.
     EXPECT_LT(test::totals(lattice).energy(), (damping == 0.0 ? 13.0 : 1.0) * start)
         << "damping " << damping;
@@ -138,7 +138,7 @@ TEST(LargestStep, ExceededByAThirdBlowsUpWithTheNameOfObjectAndPoint) {
   TimeOperator time(lattice);
   const double limit = 2.0 / std::sqrt(2.0 * 100.0);
   try {
-    time.advance(5000, 1.3 * limit, Vec3::Zero());
+    time.advance(5000, 1.3 * limit, kEmptySpace);
     FAIL() << "no SimulationError";
   } catch (const SimulationError& error) {
     EXPECT_THAT(error.diagnostic.where, testing::StartsWith("wild: point "));
@@ -152,7 +152,7 @@ TEST(LargestStep, IsCloseToTheLimit) {
   const double limit = 2.0 / std::sqrt(2.0 * 100.0);
   lattice.motion[1].velocity = {0.01, 0.0, 0.0};
   TimeOperator time(lattice);
-  time.advance(20000, 0.99 * limit, Vec3::Zero());
+  time.advance(20000, 0.99 * limit, kEmptySpace);
   EXPECT_LT(test::totals(lattice).kinetic, 1.0);
   EXPECT_LT(time.largest_step(), limit);
 }

@@ -38,7 +38,7 @@ TEST(Oscillator, FollowsTheExactSolutionOfSemiImplicitEuler) {
   TimeOperator time(lattice);
   const double theta = 2.0 * std::asin(0.5 * kOmega * kStep);
   for (int n = 1; n <= 7400; ++n) {
-    time.advance(1, kStep, Vec3::Zero());
+    time.advance(1, kStep, kEmptySpace);
     const double wanted = kSpeed * kStep * std::sin(n * theta) / std::sin(theta);
     ASSERT_NEAR(stretch_of(lattice), wanted, 1e-10) << "step " << n;
   }
@@ -52,9 +52,9 @@ TEST(Oscillator, HasTheFrequencyAndAmplitudeOfTheClosedForm) {
   const double dt = 2.0 * M_PI / kOmega / steps;
   Lattice lattice = two_masses(0.0, kSpeed, 0.0);
   TimeOperator time(lattice);
-  time.advance(steps / 4, dt, Vec3::Zero());
+  time.advance(steps / 4, dt, kEmptySpace);
   EXPECT_NEAR(stretch_of(lattice), kSpeed / kOmega, 2e-6 * kSpeed / kOmega);
-  time.advance(100 * steps - steps / 4, dt, Vec3::Zero());
+  time.advance(100 * steps - steps / 4, dt, kEmptySpace);
   EXPECT_NEAR(stretch_of(lattice), 0.0, 3e-4 * kSpeed / kOmega);
   EXPECT_NEAR(lattice.motion[1].velocity.x(), kSpeed / 3.0, 1e-6);
 }
@@ -67,12 +67,12 @@ TEST(Oscillator, DecaysWithItsDampingRatio) {
   const double dt = 2.0 * M_PI / damped_omega / 20000;
   Lattice lattice = two_masses(0.0, kSpeed, damping);
   TimeOperator time(lattice);
-  time.advance(5000, dt, Vec3::Zero());
+  time.advance(5000, dt, kEmptySpace);
   for (int period = 0; period < 5; ++period) {
     const double t = (5000 + 20000 * period) * dt;
     const double wanted = kSpeed / damped_omega * std::exp(-kZeta * kOmega * t);
     EXPECT_NEAR(stretch_of(lattice), wanted, 1e-3 * wanted) << "period " << period;
-    time.advance(20000, dt, Vec3::Zero());
+    time.advance(20000, dt, kEmptySpace);
   }
 }
 
@@ -137,7 +137,7 @@ TEST(Oscillator, OfALatticeConvergesToRungeKuttaWithFirstOrder) {
   double last = 0.0;
   for (int steps : {1000, 2000, 4000, 8000}) {
     Lattice lattice = start;
-    TimeOperator(lattice).advance(steps, kSeconds / steps, Vec3::Zero());
+    TimeOperator(lattice).advance(steps, kSeconds / steps, kEmptySpace);
     const double error = largest_error(lattice.motion, wanted);
     if (last > 0.0) {
       EXPECT_NEAR(last / error, 2.0, 0.1) << steps << " steps";

@@ -10,6 +10,7 @@
 #include "core/operators/breaking_operator.h"
 #include "core/operators/gluing_operator.h"
 #include "core/operators/point_pairs.h"
+#include "tests/property/generators.h"
 #include "tests/support/blocks.h"
 #include "tests/support/measure.h"
 
@@ -19,33 +20,11 @@ namespace limber {
 namespace {
 
 using test::BlockShape;
-
-double uniform(double low, double high) {
-  return low + (high - low) * *rc::gen::inRange(0, 1000001) * 1e-6;
-}
-
-Vec3 random_vector(double size) {
-  return {uniform(-size, size), uniform(-size, size), uniform(-size, size)};
-}
-
-BlockShape random_shape(int most_cells) {
-  BlockShape shape;
-  for (int& n : shape.cells) n = *rc::gen::inRange(1, most_cells + 1);
-  shape.edges.both_diagonals = *rc::gen::arbitrary<bool>();
-  shape.edges.body_diagonals = *rc::gen::arbitrary<bool>();
-  return shape;
-}
-
-std::vector<std::int32_t> random_edges(const PhysicalModel& m) {
-  return *rc::gen::container<std::vector<std::int32_t>>(
-      rc::gen::inRange(0, static_cast<int>(m.edges.size())));
-}
-
-std::vector<EdgeId> ids(const std::vector<std::int32_t>& indices) {
-  std::vector<EdgeId> edges;
-  for (std::int32_t i : indices) edges.push_back(EdgeId(std::size_t(i)));
-  return edges;
-}
+using test::ids;
+using test::random_edges;
+using test::random_shape;
+using test::random_vector;
+using test::uniform;
 
 template <class T>
 std::vector<T> sorted(std::vector<T> v) {
@@ -156,7 +135,8 @@ std::size_t pairs_counted_one_by_one(const PhysicalModel& a, const PhysicalModel
                                      double distance) {
   std::size_t n = 0;
   for (const Vec3& x : a.geometry.points)
-    for (const Vec3& y : b.geometry.points) n += (x - y).norm() <= distance;
+    for (const Vec3& y : b.geometry.points)
+      n += (x - y).norm() <= distance + distance_rounding(x, y);
   return n;
 }
 
@@ -200,7 +180,8 @@ RC_GTEST_PROP(PointPairsProperty, AgreeWithAllPairs, ()) {
   for (PointId p : ids_of(a))
     for (PointId q : ids_of(b)) {
       nearest = std::min(nearest, (a[p] - b[q]).norm());
-      if ((a[p] - b[q]).norm() <= distance) expected.push_back({p, q});
+      if ((a[p] - b[q]).norm() <= distance + distance_rounding(a[p], b[q]))
+        expected.push_back({p, q});
     }
   std::vector<std::pair<PointId, PointId>> found;
   for (const PointPair& pair : pairs_within(a, b, distance)) found.push_back({pair.a, pair.b});

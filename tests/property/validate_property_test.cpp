@@ -68,7 +68,7 @@ void spoil_an_index(GeometricModel& g) {
 
 void spoil_a_number(PhysicalModel& m) {
   const double bad = random_bad_number();
-  switch (*rc::gen::inRange(0, 7)) {
+  switch (*rc::gen::inRange(0, 10)) {
     case 0:
       any_of(m.geometry.points)[*rc::gen::inRange(0, 3)] = bad;
       return;
@@ -86,6 +86,15 @@ void spoil_a_number(PhysicalModel& m) {
       return;
     case 5:
       any_of(m.faces).normal_drag = bad;
+      return;
+    case 6:
+      any_of(m.parts).values["temperature"] = bad;
+      return;
+    case 7:
+      any_of(m.parts).surface.index_of_refraction = bad;
+      return;
+    case 8:
+      m.object.contact_share = bad;
       return;
     default:
       m.object.restitution = bad;

@@ -97,6 +97,25 @@ TEST(PovScene, TellsTheStatesOfATriangleApart) {
   EXPECT_THAT(flexible, HasSubstr("cylinder"));
 }
 
+// The first triangle is of clear glass, the second opaque: two meshes, one of them with an interior.
+TEST(PovScene, RefractsLightInWhatIsTransparent) {
+  EXPECT_THAT(pov_scene(snapshot_of(folded_sheet(0.2)), {}), Not(HasSubstr("interior")));
+  SurfaceModel surface = folded_sheet(0.2);
+  surface.subobject_names = {"window", "frame"};
+  surface.subobject_surfaces.resize(2);
+  surface.subobject_surfaces[0].transparency = 0.9;
+  surface.subobject_surfaces[0].index_of_refraction = 1.33;
+  surface.triangles[1].subobject = 1;
+  const std::string text = pov_body(snapshot_of(surface).bodies[0]);
+  const auto second = text.find("mesh2", 1);
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_THAT(text.substr(0, second), HasSubstr("face_indices { 1,<0,3,1>,4 }"));
+  EXPECT_THAT(text.substr(0, second), Not(HasSubstr("interior")));
+  EXPECT_THAT(text.substr(second), HasSubstr("face_indices { 1,<0,1,2>,0 }"));
+  EXPECT_THAT(text.substr(second), HasSubstr("interior { ior 1.33 }"));
+  EXPECT_THAT(text.substr(second), HasSubstr("transmit 0.9"));
+}
+
 TEST(PovScene, WritesTheImagesOfTheAxesAsRows) {
   Snapshot snapshot;
   Mat3 quarter_turn_about_y;

@@ -79,8 +79,8 @@ TEST(PointContacts, ExchangeVelocitiesAsTheirMassesDemand) {
   EXPECT_NEAR(lattice.motion[2].velocity.x(), 1.0, 1e-3);
 }
 
-// Their force is along the line between them, whatever friction the objects have against the ground:
-// across it, a contact distance apart, it would be a couple.
+// Their force is along the line between them, whatever friction the objects have against the
+// ground: across it, a contact distance apart, it would be a couple.
 TEST(PointContacts, OfObliquelyMovingPointsKeepTheAngularMomentum) {
   Lattice lattice = approaching(1.0, 0.1, {2.0, 0.0, 0.5});
   const test::Totals before = test::totals(lattice);
@@ -182,6 +182,78 @@ TEST(PointContacts, APairThatWasFoundOverlappingGrowsBackAsItSeparates) {
   }
   add_forces_anew(contacts, lattice);
   EXPECT_NEAR(lattice.force[0].x(), -5000.0 * (kDistance - 0.8), 1e-9);
+}
+
+// A ring of four points: without one edge its ends are still of one piece.
+Lattice ring() {
+  GeometricModelBuilder builder;
+  builder.begin_subobject("ring");
+  PointId p[4];
+  for (int i = 0; i < 4; ++i) p[i] = builder.add_point(Vec3(i == 1 || i == 2, i / 2, 0.0));
+  for (int i = 0; i < 4; ++i) builder.edge(p[i], p[(i + 1) % 4]);
+  PhysicalModel model = with_default_attributes(builder.finish(), "ring");
+  for (PointAttributes& point : model.points) point.mass = 1.0;
+  for (EdgeAttributes& edge : model.edges) edge.stiffness = 1.0;
+  model.object.restitution = 1.0;
+  return with_contact_frequency(test::lattice_of({model}));
+}
+
+void break_edge(Lattice& lattice, PointContacts& contacts, std::int32_t edge) {
+  const std::vector<std::int32_t> edges = {edge};
+  break_edges(lattice.topology, lattice.breaking, edges);
+  contacts.edges_broken(lattice, edges);
+}
+
+// From the next sum of forces on, before and after the next refresh.
+TEST(PointContacts, EndsOfABrokenEdgeRepel) {
+  Lattice lattice = ring();
+  PointContacts contacts;
+  contacts.refresh(lattice, components(lattice), true, false);
+  const std::size_t listed = contacts.size();
+  break_edge(lattice, contacts, 0);
+  EXPECT_EQ(contacts.size(), listed + 1);
+  lattice.motion[0].position.x() = 0.2;
+  for (int n = 0; n < 2; ++n) {
+    add_forces_anew(contacts, lattice);
+    // k = omega^2 m_red = 1e4 * 0.5, by 0.1 m below 0.9 m.
+    EXPECT_NEAR(lattice.force[0].x(), -500.0, 1e-9);
+    EXPECT_NEAR(lattice.force[1].x(), 500.0, 1e-9);
+    contacts.refresh(lattice, components(lattice), false, false);
+    EXPECT_EQ(contacts.size(), listed + 1);
+  }
+}
+
+TEST(PointContacts, EndsOfAnEdgeThatBrokeSquashedStartWithoutForce) {
+  Lattice lattice = ring();
+  PointContacts contacts;
+  contacts.refresh(lattice, components(lattice), true, false);
+  lattice.motion[0].position.x() = 0.4;
+  break_edge(lattice, contacts, 0);
+  add_forces_anew(contacts, lattice);
+  EXPECT_EQ(push_on(lattice, 0), 0.0);
+  lattice.motion[0].position.x() = 0.5;
+  add_forces_anew(contacts, lattice);
+  EXPECT_NEAR(lattice.force[0].x(), -500.0, 1e-9);
+}
+
+// Told of a break that made two pieces of one: the pair moves to the list between pieces.
+TEST(PointContacts, EndsOfABrokenEdgeAreListedOnceWhenItsPieceFellApart) {
+  Lattice lattice = with_contact_frequency(test::lattice_of({test::chain({.points = 2})}));
+  PointContacts contacts;
+  contacts.refresh(lattice, components(lattice), true, false);
+  break_edge(lattice, contacts, 0);
+  for (int n = 0; n < 8; ++n) {
+    contacts.refresh(lattice, components(lattice), n == 0, false);
+    EXPECT_EQ(contacts.size(), 1u) << "refresh " << n;
+  }
+}
+
+TEST(PointContacts, BreaksBeforeTheFirstListingAreFoundByIt) {
+  Lattice lattice = ring();
+  PointContacts contacts;
+  break_edge(lattice, contacts, 0);
+  contacts.refresh(lattice, components(lattice), true, false);
+  EXPECT_EQ(contacts.size(), 3u);  // two diagonals and the pair
 }
 
 // ---------------------------------------------------------------------------------------------

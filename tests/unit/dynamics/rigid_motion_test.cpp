@@ -190,5 +190,53 @@ TEST(BestRotation, OfADeformedSetIsTheMassWeightedOptimum) {
   }
 }
 
+// ---------------------------------------------------------------------------------------------
+
+RigidFit fit_of(const Points& points, const std::vector<Vec3>& reference) {
+  return rigid_fit(points.motion, reference, points.mass, points.all());
+}
+
+// Eight equal corners stretched along their axes by s: sum m x r^T is 8 m diag(s_i a_i^2) then
+// turned by Q, its singular values are the diagonal, and the corners miss by (s_i - 1) a_i.
+TEST(RigidFit, OfAStretchedTurnedBoxIsWhatAHandFinds) {
+  const Vec3 half(0.3, 0.2, 0.1), stretch(1.1, 0.9, 1.2);
+  const Mat3 turn = Eigen::AngleAxisd(2.0, Vec3(1.0, 2.0, 2.0) / 3.0).toRotationMatrix();
+  for (double mirror : {1.0, -1.0}) {
+    std::vector<Vec3> reference;
+    Points points;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+      const Vec3 r = sign.cwiseProduct(half);
+      const Vec3 scale(stretch.x(), stretch.y(), mirror * stretch.z());
+      reference.push_back(r + Vec3(5.0, 0.0, -1.0));
+      points.add(0.25, turn * r.cwiseProduct(scale) + Vec3(-3.0, 1.0, 7.0));
+    }
+    const RigidFit fit = fit_of(points, reference);
+    const Vec3 moment = 2.0 * stretch.cwiseProduct(half).cwiseProduct(half);
+    expect_near(fit.singular_values, {moment.x(), moment.y(), mirror * moment.z()}, 1e-15);
+    EXPECT_LE((fit.rotation - turn).norm(), 1e-13);
+    const Vec3 miss =
+        (stretch.cwiseProduct(Vec3(1.0, 1.0, mirror)) - Vec3::Ones()).cwiseProduct(half);
+    EXPECT_NEAR(fit.residual, miss.norm(), 1e-14);
+  }
+}
+
+TEST(RigidFit, OfFlatPointsHasNoThirdSingularValue) {
+  const std::vector<Vec3> reference = random_cloud({1.0, 1.0, 1.0}, 11);
+  const Points flat = mapped(reference, [](const Vec3& r) { return Vec3(r.x(), r.y(), 4.0); });
+  const RigidFit fit = fit_of(flat, reference);
+  EXPECT_NEAR(fit.rotation.determinant(), 1.0, 1e-13);
+  EXPECT_LE(std::abs(fit.singular_values[2]), 1e-15 * fit.singular_values[0]);
+  EXPECT_NEAR(fit.residual,
+              std::sqrt(squared_distance(flat, reference, fit.rotation) / flat.rigid().mass),
+              1e-13);
+}
+
+TEST(RigidFit, OfNoPointsIsFinite) {
+  const RigidFit fit = fit_of({}, {});
+  EXPECT_EQ(fit.rotation, Mat3(Mat3::Identity()));
+  EXPECT_EQ(fit.residual, 0.0);
+}
+
 }  // namespace
 }  // namespace limber

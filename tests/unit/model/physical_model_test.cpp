@@ -26,7 +26,7 @@ TEST(DefaultAttributes, EveryElementHasSomeAndNothingIsBroken) {
   EXPECT_EQ(m.edges.size(), m.geometry.edges.size());
   EXPECT_EQ(m.faces.size(), 24u);
   EXPECT_EQ(m.cells.size(), 2u);
-  EXPECT_EQ(m.surfaces.size(), 1u);
+  EXPECT_EQ(m.parts.size(), 1u);
   for (const EdgeAttributes& edge : m.edges) EXPECT_FALSE(edge.broken);
   for (const CellAttributes& cell : m.cells) EXPECT_TRUE(cell.valid);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/model/errors.h"
 #include "core/model/validate.h"
@@ -29,6 +30,25 @@ TEST(BoxLattice, HasTheCountsOfTheFormulas) {
   EXPECT_EQ(box({2, 3, 4}, {.face_diagonals = false, .body_diagonals = false}).edges.size(), axial);
   EXPECT_EQ(box({2, 3, 4}, {.face_diagonals = true, .body_diagonals = false}).edges.size(),
             axial + across);
+}
+
+using Ends = std::set<std::pair<PointId, PointId>>;
+
+Ends ends_of(const GeometricModel& g) {
+  Ends ends;
+  for (const Edge& e : g.edges) ends.insert({std::min(e.a, e.b), std::max(e.a, e.b)});
+  return ends;
+}
+
+// Against the tests' own builder, edge by edge.
+TEST(BoxLattice, OneFaceDiagonalRunsFromTheLowestCorner) {
+  const CellEdges one = {
+      .face_diagonals = false, .body_diagonals = false, .one_face_diagonal = true};
+  const GeometricModel g = box({2, 3, 4}, one);
+  test::BlockShape shape;
+  shape.cells = {2, 3, 4};
+  shape.edges = {.one_diagonal = true};
+  EXPECT_EQ(ends_of(g), ends_of(test::block_geometry(shape)));
 }
 
 TEST(BoxLattice, ACellHas28Edges) {

@@ -169,11 +169,15 @@ TEST(WithMaterial, FillsInTheObjectAndIsValid) {
 TEST(WithMaterial, SoftensStiffnessButNotTheBreakingSpeed) {
   Material soft = rubber();
   soft.softening = 100.0;
-  const PhysicalModel hard = with_material(block_geometry({}), "block", rubber());
+  soft.strain_at_crush = 0.2;
+  Material real = rubber();
+  real.strain_at_crush = 0.2;
+  const PhysicalModel hard = with_material(block_geometry({}), "block", real);
   const PhysicalModel model = with_material(block_geometry({}), "block", soft);
   for (EdgeId e : ids_of(model.edges)) {
     EXPECT_NEAR(model.edges[e].stiffness * 100.0, hard.edges[e].stiffness, 1e-6);
     EXPECT_NEAR(model.edges[e].break_threshold, 10.0 * hard.edges[e].break_threshold, 1e-12);
+    EXPECT_NEAR(model.edges[e].crush_threshold, 10.0 * hard.edges[e].crush_threshold, 1e-12);
   }
 }
 
@@ -185,6 +189,7 @@ TEST(WithMaterial, RefusesValuesOutOfRangeByName) {
       {"Young's modulus", [](Material& m) { m.youngs_modulus = kUnbreakable; }},
       {"strain at break", [](Material& m) { m.strain_at_break = 0.0; }},
       {"strain at break", [](Material& m) { m.strain_at_break = kNaN; }},
+      {"strain at crush", [](Material& m) { m.strain_at_crush = 0.0; }},
       {"damping ratio", [](Material& m) { m.damping_ratio = -0.1; }},
       {"internal damping", [](Material& m) { m.internal_damping = kNaN; }},
       {"friction", [](Material& m) { m.friction = -1.0; }},

@@ -121,16 +121,30 @@ TEST(Glue, Figure4FineOnCoarseHangsOnOnePoint) {
   EXPECT_EQ(ends_in_first(r), std::set<PointId>{PointId(2)});  // (0, 4, 0)
 }
 
+// The same, bonded one to one: the nearest of the nine alone.
+TEST(Glue, OneToOneBondsEachPointOnce) {
+  const PhysicalModel below = block_at({1, 1, 1}, 4.0, Vec3::Zero(), "below");
+  const PhysicalModel above = block_at({2, 1, 2}, 0.1, Vec3(0, 4.5, 0), "above");
+  const GlueResult r = glue(below, above, {.distance = 0.58, .one_to_one = true});
+  EXPECT_EQ(r.bonds, 1u);
+  EXPECT_DOUBLE_EQ(r.model.edges[EdgeId(r.model.edges.size() - 1)].rest_length, 0.5);
+}
+
 TEST(Glue, BondsHaveTheAttributesAsked) {
   const PhysicalModel a = block_at({1, 1, 1}, 1.0, Vec3::Zero(), "a");
   const PhysicalModel b = block_at({1, 1, 1}, 1.0, Vec3(1.25, 0, 0), "b");
-  const GlueBond bond{.distance = 0.3, .stiffness = 70, .damping = 3, .break_strain = 0.2};
+  const GlueBond bond{.distance = 0.3,
+                      .stiffness = 70,
+                      .damping = 3,
+                      .break_strain = 0.2,
+                      .crush_strain = 0.4};
   const PhysicalModel m = glue(a, b, bond).model;
   const EdgeAttributes& last = m.edges[EdgeId(m.edges.size() - 1)];
   EXPECT_EQ(last.stiffness, 70);
   EXPECT_EQ(last.damping, 3);
   EXPECT_EQ(last.rest_length, 0.25);
   EXPECT_EQ(last.break_threshold, 0.05);
+  EXPECT_EQ(last.crush_threshold, 0.1);
   EXPECT_FALSE(last.broken);
   const PhysicalModel strong = glue(a, b, {.distance = 0.3}).model;
   EXPECT_EQ(strong.edges[EdgeId(strong.edges.size() - 1)].break_threshold, kUnbreakable);
@@ -141,20 +155,27 @@ TEST(Glue, KeepsBothModelsAsTheyAre) {
   PhysicalModel a = block_at({2, 1, 1}, 1.0, Vec3::Zero(), "a");
   PhysicalModel b = block_at({1, 1, 1}, 1.0, Vec3(2.25, 0, 0), "b");
   a.object.friction = 0.9;
-  b.surfaces[0].specularity = 0.7;
+  b.parts[0].surface.specularity = 0.7;
+  b.parts[0].values["temperature"] = 350.0;
+  b.edges[EdgeId(3)].crush_threshold = 0.02;
   for (PointId p : ids_of(b.points)) b.points[p] = {1.0 + p.value, Vec3(p.value, 0.1, -3)};
+  b.points[PointId(5)].pinned = true;
   const EdgeId first[] = {EdgeId(0)};
   break_edges(a, first);
   const PhysicalModel m = glue(a, b, {.distance = 0.25}).model;
 
   EXPECT_EQ(m.name, "a + b");
   EXPECT_EQ(m.object.friction, 0.9);
-  EXPECT_EQ(m.surfaces[1].specularity, 0.7);
+  EXPECT_EQ(m.parts[1].surface.specularity, 0.7);
+  EXPECT_EQ(m.parts[1].values.at("temperature"), 350.0);
+  EXPECT_TRUE(m.parts[0].values.empty());
+  EXPECT_EQ(m.edges[EdgeId(a.edges.size() + 3)].crush_threshold, 0.02);
   EXPECT_FALSE(m.cells[CellId(0)].valid);
   for (PointId p : ids_of(b.points)) {
     const PointId moved(p.index() + a.points.size());
     EXPECT_EQ(m.points[moved].mass, b.points[p].mass);
     EXPECT_EQ(m.points[moved].velocity, b.points[p].velocity);
+    EXPECT_EQ(m.points[moved].pinned, b.points[p].pinned);
     EXPECT_EQ(m.geometry.points[moved], b.geometry.points[p]);
   }
   EXPECT_EQ(cell_volume(m.geometry, CellId(2)), cell_volume(b.geometry, CellId(0)));
@@ -175,7 +196,7 @@ TEST(Glue, SubobjectRangesFollowEachOther) {
   EXPECT_EQ(s[2].edges, (IdRange<EdgeId>{32, 36}));
   EXPECT_EQ(s[2].faces, (IdRange<FaceId>{36, 36}));
   EXPECT_EQ(s[2].cells, (IdRange<CellId>{3, 3}));
-  EXPECT_EQ(m.surfaces.size(), 3u);
+  EXPECT_EQ(m.parts.size(), 3u);
 }
 
 // Gluing makes nothing and moves nothing: mass and momentum are the same to the last bit as those
@@ -256,6 +277,8 @@ TEST(Glue, BadBondsAreRefused) {
   EXPECT_THAT(refusal(a, b, {.distance = 0.5, .stiffness = -1}).what, HasSubstr("is -1"));
   EXPECT_THAT(refusal(a, b, {.distance = 0.5, .damping = nan}).what, HasSubstr("damping"));
   EXPECT_THAT(refusal(a, b, {.distance = 0.5, .break_strain = 0}).what, HasSubstr("strain is 0"));
+  EXPECT_THAT(refusal(a, b, {.distance = 0.5, .crush_strain = 0}).what,
+              HasSubstr("crush strain is 0"));
 }
 
 TEST(Glue, BadModelsAreRefused) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace limber {
 namespace {
 
@@ -21,6 +23,111 @@ TEST(PairsWithin, AreOrderedAndIncludeTheDistanceItself) {
   EXPECT_EQ(pairs[0].distance, 1.0);
   EXPECT_EQ(pairs[1].a, PointId(1));
   EXPECT_EQ(pairs[1].b, PointId(1));
+}
+
+// In doubles 1.1 - 1.0 is 0.10000000000000009. A micrometre less, on a length of a metre, is 450
+// times what rounding is allowed: 10^6 um apart, but sqrt(10^12 + 1) um is too far.
+TEST(PairsWithin, RoundingDoesNotDecide) {
+  const PointPositions a = positions({{1.0, 0, 0}});
+  const PointPositions beside = positions({{1.1, 0, 0}});
+  ASSERT_GT((beside[PointId(0)] - a[PointId(0)]).norm(), 0.1);
+  EXPECT_EQ(pairs_within(a, beside, 0.1).size(), 1u);
+  EXPECT_EQ(pairs_within(a, positions({{2.0, 0, 0}}), 1.0).size(), 1u);
+  EXPECT_EQ(pairs_within(a, positions({{2.0, 1e-6, 0}}), 1.0).size(), 0u);
+}
+
+TEST(PairsWithin, DistanceZeroFindsCoincidentPoints) {
+  const PointPositions a = positions({{0.1 + 0.2, 0, 0}, {1, 0, 0}, {0, 0, 0}});
+  const PointPositions b = positions({{0.3, 0, 0}, {1, 1e-6, 0}, {0, 0, 0}});
+  const std::vector<PointPair> pairs = pairs_within(a, b, 0.0);
+  ASSERT_EQ(pairs.size(), 2u);
+  EXPECT_EQ(pairs[0].b, PointId(0));
+  EXPECT_EQ(pairs[1].b, PointId(2));
+}
+
+// Points 0.1 m apart on a long row whose grid cubes begin elsewhere: every one has its partner.
+TEST(PairsWithin, FindsNeighboursExactlyOneCubeAway) {
+  PointPositions a, b;
+  for (int i = 0; i < 20000; ++i) {
+    a.push_back(Vec3(0.1 * i + 0.05, 0, 0));
+    b.push_back(Vec3(0.1 * (i + 1) + 0.05, 0, 0));
+  }
+  // 0.1 (i - j - 1) m apart: two for each but the ends, and the same place for all but one.
+  EXPECT_EQ(pairs_within(a, b, 0.1).size(), 20000u + 19999u + 19998u);
+}
+
+PointPositions grid(std::array<int, 3> n, double spacing, const Vec3& origin) {
+  PointPositions points;
+  for (int z = 0; z < n[2]; ++z)
+    for (int y = 0; y < n[1]; ++y)
+      for (int x = 0; x < n[0]; ++x) points.push_back(origin + spacing * Vec3(x, y, z));
+  return points;
+}
+
+// Counted in exact integer arithmetic (group "gluing" of the project's reference cases): pairs at
+// most and less than the distance apart, points of a and b with a partner, pairs one to one.
+struct ReferenceCounts {
+  std::array<int, 3> points_a;
+  double spacing_a;
+  std::array<int, 3> points_b;
+  double spacing_b;
+  Vec3 origin_b;
+  double distance;
+  std::size_t at_most, less, with_partner_a, with_partner_b, one_to_one;
+};
+
+const ReferenceCounts kReferenceCounts[] = {
+    {{3, 3, 3}, 0.1, {3, 3, 3}, 0.1, {0.3, 0, 0}, 0.099999, 0, 0, 0, 0, 0},
+    {{3, 3, 3}, 0.1, {3, 3, 3}, 0.1, {0.3, 0, 0}, 0.1, 9, 0, 9, 9, 9},
+    {{3, 3, 3}, 0.1, {3, 3, 3}, 0.1, {0.3, 0, 0}, 0.21, 67, 67, 18, 18, 9},
+    {{4, 5, 4}, 0.1, {4, 5, 4}, 0.1, {0.32, 0, 0}, 0.145, 170, 170, 40, 40, 20},
+    {{4, 4, 4}, 0.1, {7, 7, 7}, 0.05, {0.35, 0, 0}, 0.05, 16, 0, 16, 16, 16},
+    {{4, 4, 4}, 0.1, {7, 7, 7}, 0.05, {0.35, 0, 0}, 0.12, 212, 212, 16, 89, 16},
+    {{5, 5, 2}, 0.09, {4, 4, 2}, 0.13, {0.01, -0.017, 0.12}, 0.06, 17, 17, 17, 16, 16},
+    {{5, 5, 2}, 0.09, {4, 4, 2}, 0.13, {0.01, -0.017, 0.12}, 0.1, 42, 42, 25, 16, 16},
+    {{3, 3, 3}, 0.1, {3, 3, 3}, 0.1, {0.2, 0, 0}, 0.0, 9, 0, 9, 9, 9},
+    {{3, 3, 3}, 0.1, {3, 3, 3}, 0.1, {0.2, 0, 0}, 0.1, 51, 9, 18, 18, 9},
+    {{3, 3, 3}, 0.1, {3, 3, 3}, 0.1, {0.2, 0, 0}, 0.142, 115, 115, 18, 18, 9},
+    {{2, 2, 2}, 1.0, {2, 2, 2}, 1.0, {1.1, 0.05, -0.03}, 1.05, 10, 10, 4, 4, 4},
+};
+
+TEST(PairsWithin, AgreeWithTheReferenceCounts) {
+  for (const ReferenceCounts& c : kReferenceCounts) {
+    const PointPositions a = grid(c.points_a, c.spacing_a, Vec3::Zero());
+    const PointPositions b = grid(c.points_b, c.spacing_b, c.origin_b);
+    const std::vector<PointPair> pairs = pairs_within(a, b, c.distance);
+    std::set<PointId> partners_a, partners_b;
+    std::size_t less = 0;
+    for (const PointPair& pair : pairs) {
+      partners_a.insert(pair.a);
+      partners_b.insert(pair.b);
+      less += pair.distance < c.distance - pair.rounding;
+    }
+    EXPECT_EQ(pairs.size(), c.at_most) << c.distance;
+    EXPECT_EQ(less, c.less) << c.distance;
+    EXPECT_EQ(partners_a.size(), c.with_partner_a) << c.distance;
+    EXPECT_EQ(partners_b.size(), c.with_partner_b) << c.distance;
+    EXPECT_EQ(one_to_one(pairs).size(), c.one_to_one) << c.distance;
+  }
+}
+
+TEST(OneToOne, TakesTheNearestFirstAndEveryPointOnce) {
+  const std::vector<PointPair> pairs = {{PointId(0), PointId(0), 0.5, 0.0},
+                                        {PointId(0), PointId(1), 0.2, 0.0},
+                                        {PointId(1), PointId(1), 0.3, 0.0},
+                                        {PointId(2), PointId(0), 0.6, 0.0}};
+  const std::vector<PointPair> chosen = one_to_one(pairs);
+  ASSERT_EQ(chosen.size(), 2u);
+  EXPECT_EQ(chosen[0].distance, 0.2);
+  EXPECT_EQ(chosen[1].distance, 0.6);
+}
+
+// The second is nearer by less than rounding: ids decide, as they would on paper.
+TEST(OneToOne, TakesTheSmallestIdsAmongEquals) {
+  const std::vector<PointPair> chosen = one_to_one(
+      {{PointId(1), PointId(0), 0.1, 1e-15}, {PointId(0), PointId(0), 0.1 + 1e-16, 1e-15}});
+  ASSERT_EQ(chosen.size(), 1u);
+  EXPECT_EQ(chosen[0].a, PointId(0));
 }
 
 TEST(PairsWithin, NoPointsNoPairs) {

@@ -1,0 +1,154 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+
+#include "core/modeller/box_lattice.h"
+#include "tests/bridge/measure.h"
+#include "tests/bridge/models.h"
+#include "tests/bridge/world.h"
+
+// A rigid proxy feels the wind that its lattice would: followed in both representations, a leaf and
+// a plank land in the same place.
+
+namespace limber::bullet::test {
+namespace {
+
+void give_drag(PhysicalModel& model, double normal, double tangential) {
+  for (FaceAttributes& face : model.faces) {
+    face.normal_drag = normal;
+    face.tangential_drag = tangential;
+  }
+}
+
+// Two triangles bent along their common edge, with a brace across that keeps the bend. 9 g.
+PhysicalModel leaf() {
+  GeometricModelBuilder builder;
+  builder.begin_subobject("leaf");
+  const std::array<Vec3, 4> at = {Vec3(0.0, 0.0, 0.0), Vec3(0.1, 0.0, 0.03),
+                                  Vec3(0.1, 0.01, -0.03), Vec3(0.2, 0.005, 0.0)};
+  std::array<PointId, 4> p;
+  for (int i = 0; i < 4; ++i) p[i] = builder.add_point(at[i]);
+  for (int i = 0; i < 4; ++i) {
+    for (int j = i + 1; j < 4; ++j) builder.edge(p[i], p[j]);
+  }
+  builder.add_face({p[0], p[1], p[2]});
+  builder.add_face({p[1], p[3], p[2]});
+  PhysicalModel model = with_default_attributes(builder.finish(), "leaf");
+  const std::array<double, 4> mass = {0.004, 0.002, 0.002, 0.001};
+  for (int i = 0; i < 4; ++i) model.points[p[i]].mass = mass[i];
+  for (EdgeAttributes& edge : model.edges) {
+    edge.stiffness = 2e6;  // at 2e5 it bends enough to land 0.1 mm elsewhere
+    edge.damping = 0.2;
+  }
+  give_drag(model, 1.2, 0.05);
+  place(model, Eigen::AngleAxisd(0.3, Vec3(1.0, 2.0, 3.0).normalized()).toRotationMatrix(),
+        {0.0, 3.0, 0.0});
+  return model;
+}
+
+PhysicalModel plank() {
+  PhysicalModel model = make_block(
+      {.cells = {6, 1, 2}, .spacing = 0.05, .mass = 0.15, .modulus = 2e8}, {0.0, 3.0, 0.0},
+      {0.5, 0.0, 0.0}, {0.5, 1.0, 3.0});
+  give_drag(model, 1.2, 0.05);
+  return model;
+}
+
+// A gust from the side that rises and falls, and a whirl that drifts by.
+Air gusting_air() {
+  Air air;
+  FlowPrimitive gust;
+  gust.direction = {1.0, 0.0, 0.3};
+  gust.strength = Track<double>({{0.0, 1.0}, {0.4, 5.0}, {0.9, 2.0}});
+  FlowPrimitive whirl;
+  whirl.kind = FlowKind::kLineVortex;
+  whirl.position = Track<Vec3>({{0.0, Vec3(-0.5, 3.0, 0.0)}, {1.0, Vec3(1.5, 1.0, 0.0)}});
+  whirl.strength = 2.0;
+  whirl.core_radius = 0.3;
+  air.wind.primitives = {gust, whirl};
+  return air;
+}
+
+constexpr double kFlight = 1.0;  // s
+
+// Where every point is in the end.
+std::vector<Vec3> landing(const PhysicalModel& model, Representation as, double step_scale) {
+  World world;
+  CoSimulation simulation(*world, settings_for(as, step_scale));
+  simulation.set_air(gusting_air());
+  simulation.add(model);
+  world.run(kFlight, kTick);
+  EXPECT_FALSE(simulation.failure());
+  const PhysicalModel end = simulation.model(0);
+  return {end.geometry.points.begin(), end.geometry.points.end()};
+}
+
+double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double distance = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) distance = std::max(distance, (a[i] - b[i]).norm());
+  return distance;
+}
+
+class Wind : public testing::TestWithParam<PhysicalModel (*)()> {};
+
+// Symplectic Euler is of first order: what halving the substep changes is half of the error at the
+// full one.
+TEST_P(Wind, BlowsAProxyToWhereItsLatticeGoes) {
+  const PhysicalModel model = GetParam()();
+  const auto rigid = landing(model, Representation::kAlwaysRigid, 1.0);
+  const auto coarse = landing(model, Representation::kAlwaysFlexible, 0.5);
+  const auto fine = landing(model, Representation::kAlwaysFlexible, 0.25);
+  const double integrator_error = 2.0 * farthest(coarse, fine);
+  // m: what a second of Bullet's floats costs, and what bending still makes of it.
+  const double stored = by_precision(1e-4, 1e-5);
+  EXPECT_LT(farthest(rigid, coarse), 1.2 * integrator_error + stored);
+  EXPECT_LT(farthest(rigid, fine), 0.6 * integrator_error + stored);
+}
+
+// Otherwise the test above would compare two vacuums.
+TEST_P(Wind, MattersInThisTest) {
+  const PhysicalModel model = GetParam()();
+  World world;
+  CoSimulation vacuum(*world, settings_for(Representation::kAlwaysRigid));
+  vacuum.add(model);
+  world.run(kFlight, kTick);
+  const PhysicalModel fallen = vacuum.model(0);
+  const auto blown = landing(model, Representation::kAlwaysRigid, 1.0);
+  EXPECT_GT(farthest(blown, {fallen.geometry.points.begin(), fallen.geometry.points.end()}), 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Things, Wind, testing::Values(leaf, plank),
+                         [](const auto& thing) { return thing.index == 0 ? "Leaf" : "Plank"; });
+
+TEST(Wind, WakesALeafThatFellAsleep) {
+  World world;
+  world.add_ground();
+  CoSimulation simulation(*world, settings_for(Representation::kAlwaysRigid));
+  PhysicalModel model = plank();
+  place(model, Mat3::Identity(), {0.0, -2.97, 0.0});
+  for (PointAttributes& point : model.points) point.velocity.setZero();
+  simulation.add(model);
+  world.run(4.0, kTick);
+  const Vec3 asleep = simulation.placement(0).second;
+  world.run(1.0, kTick);
+  EXPECT_EQ((simulation.placement(0).second - asleep).norm(), 0.0);
+  FlowPrimitive storm;
+  storm.strength = 25.0;
+  simulation.set_air(Air{.wind = {{storm}}});
+  world.run(1.0, kTick);
+  EXPECT_GT(simulation.placement(0).second.x() - asleep.x(), 0.2);
+}
+
+TEST(Wind, IsRefusedWhenItHasNoDirection) {
+  World world;
+  CoSimulation simulation(*world);
+  FlowPrimitive nowhere;
+  nowhere.direction.setZero();
+  EXPECT_THROW(simulation.set_air(Air{.wind = {{nowhere}}}), InputError);
+  EXPECT_FALSE(simulation.air());
+}
+
+}  // namespace
+}  // namespace limber::bullet::test

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <ostream>
+
+#include "tests/reference/runner.h"
+#include "tests/reference/score.h"
+
+// Every case of data/reference_cases.json that needs no rigid-body engine, run by the library and
+// judged by the tolerances that come with the case.
+
+namespace limber::reference {
+
+void PrintTo(const CaseRecord& record, std::ostream* out) { *out << record.input.id; }
+
+namespace {
+
+const std::vector<CaseRecord>& all_cases() {
+  static const std::vector<CaseRecord> cases = read_cases(LIMBER_TEST_DATA "/reference_cases.json");
+  return cases;
+}
+
+bool is_covered(const CaseRecord& record) { return all_kinds().contains(kind_of(record.input.id)); }
+
+std::vector<CaseRecord> covered_cases() {
+  std::vector<CaseRecord> covered;
+  for (const CaseRecord& record : all_cases()) {
+    if (is_covered(record)) covered.push_back(record);
+  }
+  return covered;
+}
+
+struct Judgement {
+  std::string quantity;
+  Grade grade;
+  std::string text;  // quantity, error and tolerance
+};
+
+Judgement judged(const std::string& name, const nlohmann::json& wanted,
+                 const nlohmann::json& found) {
+  const nlohmann::json& tolerance = wanted.at("tol");
+  if (!found.contains(name)) return {name, grade(INFINITY, tolerance), name + ": missing"};
+  const double error = error_of(found[name], wanted.at("value"), tolerance);
+  return {name, grade(error, tolerance),
+          fmt::format("{}: error {:.3g}, tolerance {}", name, error, tolerance.dump())};
+}
+
+// Runs each case once, whoever asks.
+const std::vector<Judgement>& judgements_of(const CaseRecord& record) {
+  static std::map<std::string, std::vector<Judgement>> known;
+  const auto [entry, is_new] = known.try_emplace(record.input.id);
+  if (!is_new) return entry->second;
+  const Outcome outcome = run_case(record);
+  const nlohmann::json found =
+      outcome.quantities.is_null() ? nlohmann::json::object() : outcome.quantities;
+  for (const std::string& reason : outcome.left_out) {
+    fmt::print("left out {}: {}\n", record.input.id, reason);
+  }
+  for (const auto& [name, wanted] : record.expected.items()) {
+    if (!is_input(wanted)) entry->second.push_back(judged(name, wanted, found));
+  }
+  return entry->second;
+}
+
+class ReferenceCase : public testing::TestWithParam<CaseRecord> {};
+
+TEST_P(ReferenceCase, IsGoodInEveryQuantity) {
+  const std::vector<Judgement>& judgements = judgements_of(GetParam());
+  EXPECT_FALSE(judgements.empty());
+  for (const Judgement& judgement : judgements) {
+    if (judgement.grade == Grade::kFailure) ADD_FAILURE() << judgement.text;
+  }
+}
+
+std::string test_name(const testing::TestParamInfo<CaseRecord>& info) {
+  std::string name = info.param.input.id;
+  for (char& c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  }
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ReferenceCase, testing::ValuesIn(covered_cases()), test_name);
+
+TEST(ReferenceCases, AreExcellentInNineOfTenQuantities) {
+  int excellent = 0, asked_for = 0;
+  for (const CaseRecord& record : covered_cases()) {
+    for (const Judgement& judgement : judgements_of(record)) {
+      if (judgement.grade == Grade::kInformation) continue;
+      ++asked_for;
+      excellent += judgement.grade == Grade::kExcellent;
+      if (judgement.grade != Grade::kExcellent) {
+        fmt::print("not excellent: {} {}\n", record.input.id, judgement.text);
+      }
+    }
+  }
+  fmt::print("{} of {} quantities are excellent\n", excellent, asked_for);
+  EXPECT_GT(asked_for, 0);
+  EXPECT_GE(10 * excellent, 9 * asked_for);
+}
+
+// Nothing is left out by accident: what has no kind has a reason.
+TEST(ReferenceCases, ThatAreLeftOutNeedARigidBodyEngine) {
+  std::map<std::string, int> left_out;
+  for (const CaseRecord& record : all_cases()) {
+    if (!is_covered(record)) ++left_out[kind_of(record.input.id)];
+  }
+  const std::map<std::string, int> expected = {{"point_penalty", 5},
+                                               {"chain_vs_free_mass", 3},
+                                               {"energy_bounds", 3},
+                                               {"lattice_vs_box", 3},
+                                               {"isolated_system", 2}};
+  EXPECT_EQ(left_out, expected);
+  for (const auto& [kind, count] : left_out) EXPECT_TRUE(kinds_left_out().contains(kind)) << kind;
+}
+
+}  // namespace
+}  // namespace limber::reference
