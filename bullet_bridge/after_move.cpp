@@ -36,12 +36,12 @@ void CoSimulation::Impl::after_move(double dt) {
   if (stepped_lattice_) contacts_.correct_poses(dt);
   fly_free_proxies(dt);
   thawed_.clear();
+  time_ += dt;
   if (stepped_lattice_) split_broken_pieces();
   name_pieces_of_breaks();
   count_time(dt);  // before freezing: a piece that calms now was a lattice for the whole tick
   if (stepped_lattice_) freeze_calm_pieces(dt);
   step_debris(dt);
-  time_ += dt;
 }
 
 void CoSimulation::Impl::fly_free_proxies(double dt) {
@@ -54,20 +54,20 @@ void CoSimulation::Impl::fly_free_proxies(double dt) {
   }
 }
 
-// Single points, and in an object made of cells what holds no valid cell any more: crumbs of two or
-// three points on a few bonds, which have no volume and no inertia about a line.
-bool CoSimulation::Impl::becomes_debris(std::size_t object,
-                                        std::span<const std::int32_t> points) const {
-  if (points.size() == 1) return true;
-  if (lattice_.objects[object].cells.size() == 0) return false;
-  return std::none_of(points.begin(), points.end(), [&](std::int32_t p) {
-    const auto edges = lattice_.point_edges[p];
-    return std::any_of(edges.begin(), edges.end(), [&](std::int32_t e) {
-      const auto cells = lattice_.topology.edge_cells[e];
-      return std::any_of(cells.begin(), cells.end(),
-                         [&](std::int32_t c) { return lattice_.breaking.cell_valid[c] != 0; });
-    });
-  });
+// Single points, and what was part of cells that are all invalid now: crumbs of two or three points
+// on a few bonds, which have no volume and no inertia about a line. Points that never had a cell
+// are those of a rope, which stays one when it comes off a body.
+bool CoSimulation::Impl::becomes_debris(std::span<const std::int32_t> points) const {
+  return points.size() == 1 || std::all_of(points.begin(), points.end(), [&](std::int32_t p) {
+           bool had_cell = false;
+           for (std::int32_t e : lattice_.point_edges[p]) {
+             for (std::int32_t c : lattice_.topology.edge_cells[e]) {
+               if (lattice_.breaking.cell_valid[c]) return false;
+               had_cell = true;
+             }
+           }
+           return had_cell;
+         });
 }
 
 // P and L stay: the points go on with the velocities they have. Their bonds break.
@@ -127,7 +127,7 @@ void CoSimulation::Impl::split(const Piece& piece,
                                std::vector<std::vector<std::int32_t>> groups) {
   SplitRecord record{.time = time_, .object = piece.object, .piece = piece.id};
   for (std::vector<std::int32_t>& points : groups) {
-    if (becomes_debris(piece.object, points)) {
+    if (becomes_debris(points)) {
       turn_to_debris(points);
       record.particles += points.size();
     } else {
@@ -186,13 +186,23 @@ void CoSimulation::Impl::freeze_calm_pieces(double dt) {
       continue;
     }
     if (!piece->touched) ++counters_.needless;
-    piece->carried_load = contact_load(lattice_, piece->points, from_bullet(world_.getGravity()));
-    piece->sustained_load = piece->carried_load;
     freeze_piece(*piece, "calm", numbers_of(*piece, seen));
+    note_carried_load(*piece);
     // Bullet gives gravity once per stepSimulation; this body has missed it, should more ticks
     // follow.
     piece->proxy->body().applyGravity();
   }
+}
+
+// What it bears as it becomes rigid: only a change of that strains it from now on.
+void CoSimulation::Impl::note_carried_load(Piece& piece) const {
+  const RigidProxy& proxy = *piece.proxy;
+  piece.carried_air =
+      environment_.air ? proxy.air_force(*environment_.air, time_) : Vec3(Vec3::Zero());
+  piece.air_load = piece.carried_air;
+  piece.carried_load = contact_load(lattice_, piece.points, from_bullet(world_.getGravity()),
+                                    proxy.to_world(piece.carried_air));
+  piece.sustained_load = piece.carried_load;
 }
 
 void CoSimulation::Impl::freeze_piece(Piece& piece, const std::string& cause, Numbers numbers) {

@@ -8,6 +8,7 @@
 #include "bullet_bridge/co_simulation_impl.h"
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/neighbourhood.h"
+#include "bullet_bridge/waking.h"
 
 // The first half of a tick: Bullet knows the contacts and has not applied an impulse. What is about
 // to be loaded becomes a lattice, and the lattices are integrated with the bodies they touch.
@@ -97,14 +98,16 @@ bool CoSimulation::Impl::material_meets(Piece& piece, const btCollisionObject& o
   return false;
 }
 
-// What no prediction foresaw, and what builds up slowly: the impulses of the last tick. What its
-// contacts bore when it became rigid is in its shape already; more strains it, less relaxes it.
+// What no prediction foresaw, and what builds up slowly: the impulses of the last tick, and the
+// air. What both did when it became rigid is in its shape already; more strains it, less relaxes
+// it.
 void CoSimulation::Impl::judge_impulse(Piece& piece, double dt) {
   const double impulse = piece.proxy->impulse;
   const double limit = flexible_strain(piece.strength, settings_.switching);
   piece.sustained_load =
       averaged_load(piece.sustained_load, impulse / dt, dt, settings_.switching.load_time);
-  const double change = std::abs(piece.sustained_load - piece.carried_load) + piece.air_load;
+  const double change = std::abs(piece.sustained_load - piece.carried_load) +
+                        (piece.air_load - piece.carried_air).norm();
   const double sustained = sustained_strain(piece.strength, change, piece.size);
   // A body at rest receives m g dt a tick, and as much again when its contacts chatter.
   const double weight = 2.0 * world_.getGravity().length() * dt;
@@ -139,31 +142,37 @@ void CoSimulation::Impl::consider_lattice_hit(const Piece& flexible, Piece& piec
                        mine.angular_velocity.norm() * piece.size +
                        other.angular_velocity.norm() * flexible.size +
                        2.0 * rms_vibration(lattice_, flexible.points);
-  if (impact_strain(piece.strength, bound, flexible.strength.mass) <= limit) return;
+  // What pins hold does not give way, however light it is.
+  const double partner = flexible.pinned ? kUnbreakable : flexible.strength.mass;
+  if (impact_strain(piece.strength, bound, partner) <= limit) return;
   piece.proxy->write_points(lattice_, piece.points);
   const double closing = closing_speed(lattice_, piece.points, flexible.points, dt);
-  const double strain = impact_strain(piece.strength, closing, flexible.strength.mass);
+  const double strain = impact_strain(piece.strength, closing, partner);
   if (strain <= limit) return;
   thaw_piece(piece, "touch",
              {{"closing_m_s", closing}, {"strain", strain}, {"limit_strain", limit}});
 }
 
-// A proxy feels the wind that its lattice would. What fell asleep wakes when the air bears a tenth
-// of its weight.
+// A proxy feels the wind that its lattice would.
 void CoSimulation::Impl::blow_on_proxies(double dt) {
-  constexpr double kWakingShare = 0.1;
-  if (!environment_.air) return;
-  const double weight_per_mass = world_.getGravity().length();
   for (const auto& piece : pieces_) {
     if (!piece->proxy || !piece->proxy->feels_air()) continue;
-    RigidProxy& proxy = *piece->proxy;
-    const double waking = kWakingShare * piece->strength.mass * weight_per_mass;
-    if (!proxy.body().isActive() && proxy.air_force(*environment_.air, time_) > waking) {
-      proxy.body().activate();
-    }
-    piece->air_load =
-        proxy.body().isActive() ? proxy.feel_air(*environment_.air, time_, dt) : 0.0;
+    piece->air_load = environment_.air ? blow_on(*piece, dt) : Vec3(Vec3::Zero());
   }
+}
+
+// Returns the force of the air, N, in the body's frame. What fell asleep wakes when the air bears a
+// tenth of its weight.
+Vec3 CoSimulation::Impl::blow_on(const Piece& piece, double dt) {
+  constexpr double kWakingShare = 0.1;
+  RigidProxy& proxy = *piece.proxy;
+  if (!proxy.body().isActive()) {
+    const Vec3 force = proxy.air_force(*environment_.air, time_);
+    const double weight = piece.strength.mass * world_.getGravity().length();
+    if (force.norm() > kWakingShare * weight) wake(world_, proxy.body());
+    if (!proxy.body().isActive()) return force;
+  }
+  return proxy.feel_air(*environment_.air, time_, dt);
 }
 
 void CoSimulation::Impl::thaw_piece(Piece& piece, const std::string& cause, Numbers numbers) {

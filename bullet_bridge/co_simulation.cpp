@@ -4,6 +4,8 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "bullet_bridge/co_simulation_impl.h"
 #include "core/storage/state_hash.h"
@@ -11,11 +13,32 @@
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
+namespace {
+
+void require(bool holds, const std::string& what, const char* remedy) {
+  if (!holds) throw InputError({"settings of the simulation", what, remedy});
+}
+
+const CoSimulationSettings& valid(const CoSimulationSettings& settings) {
+  require(settings.step_scale > 0.0 && std::isfinite(settings.step_scale),
+          "step_scale is " + std::to_string(settings.step_scale),
+          "give it a value above 0, up to 1");
+  require(settings.most_substeps > 0,
+          "most_substeps is " + std::to_string(settings.most_substeps), "allow one at least");
+  require(settings.debris_lifetime >= 0.0,
+          "debris_lifetime is " + std::to_string(settings.debris_lifetime) + " s",
+          "give it 0 or more, or infinity");
+  return settings;
+}
+
+}  // namespace
+
 std::size_t CoSimulation::Impl::add(PhysicalModel model) {
   const bool pinned = std::any_of(model.points.begin(), model.points.end(),
                                   [](const PointAttributes& point) { return point.pinned; });
   if (pinned && settings_.representation == Representation::kAlwaysRigid) {
-    throw InputError({model.name + ": points", "pinned points hold it, and it is to be always rigid",
+    throw InputError({model.name + ": points",
+                      "pinned points hold it, and it is to be always rigid",
                       "unpin them, or simulate it switching or always flexible"});
   }
   const std::size_t object = add_object(lattice_, std::move(model));
@@ -26,18 +49,23 @@ std::size_t CoSimulation::Impl::add(PhysicalModel model) {
   whole.object = object;
   whole.points = points_of_object(object);
   for (std::vector<std::int32_t>& points : connected_groups(whole)) {
-    if (becomes_debris(object, points)) {
+    if (becomes_debris(points)) {
       turn_to_debris(points);
-      continue;
+    } else {
+      start(add_piece(object, std::move(points)));
     }
-    Piece& piece = add_piece(object, std::move(points));
-    const Calmness seen = look_at(piece);
-    const bool rigid = settings_.representation == Representation::kAlwaysRigid ||
-                       (switching() && !piece.pinned && calm(piece.strength, settings_.switching, seen));
-    if (rigid) freeze_piece(piece, "start", numbers_of(piece, seen));
   }
   roles_stale_ = true;
   return object;
+}
+
+void CoSimulation::Impl::start(Piece& piece) {
+  Calmness seen = look_at(piece);
+  seen.peak_load = largest_load(lattice_, piece.points);  // no step has sampled it yet
+  const bool quiet = !piece.pinned && calm(piece.strength, settings_.switching, seen);
+  const bool rigid =
+      settings_.representation == Representation::kAlwaysRigid || (switching() && quiet);
+  if (rigid) freeze_piece(piece, "start", numbers_of(piece, seen));
 }
 
 void CoSimulation::Impl::sync_points() const {
@@ -54,7 +82,7 @@ std::vector<std::int32_t> CoSimulation::Impl::points_of_object(std::size_t objec
 }
 
 CoSimulation::CoSimulation(btDiscreteDynamicsWorld& world, const CoSimulationSettings& settings)
-    : impl_(std::make_unique<Impl>(world, settings)) {}
+    : impl_(std::make_unique<Impl>(world, valid(settings))) {}
 
 CoSimulation::~CoSimulation() = default;
 

@@ -29,17 +29,17 @@ enum class Representation {
 
 struct CoSimulationSettings {
   Representation representation = Representation::kSwitching;
-  SwitchSettings switching;
+  SwitchSettings switching = {};
   double step_scale = 1.0;     // (0, 1]: factor on the automatically chosen substep
   int most_substeps = 100000;  // a tick that would need more is refused by name
-  // How long particles (points that lost all their edges) live, s. Then they stay where they are and
-  // nothing moves them any more; their mass is counted as retired.
+  // How long particles (points that lost all their edges) live, s: 0 or more, or infinity. Then
+  // they stay where they are and nothing moves them any more; their mass is counted as retired.
   double debris_lifetime = std::numeric_limits<double>::infinity();
 };
 
 // One change of representation with what decided it.
 struct SwitchRecord {
-  double time = 0.0;  // s
+  double time = 0.0;  // s: turning flexible at the start of a tick, rigid at its end
   std::size_t object = 0;
   std::size_t piece = 0;  // counts up over the whole simulation
   std::string cause;      // "touch", "sustained load", "missed touch", "calm", "start"
@@ -107,14 +107,16 @@ class CoSimulation {
  public:
   // The world must outlive this; it is left as it was found when this is destroyed (but for the
   // proxies, which go).
+  // Throws InputError for settings out of range.
   explicit CoSimulation(btDiscreteDynamicsWorld& world, const CoSimulationSettings& settings = {});
   ~CoSimulation();
   CoSimulation(const CoSimulation&) = delete;
   CoSimulation& operator=(const CoSimulation&) = delete;
 
   // Adds an object where its points are, with their velocities. Not during a step. Returns its
-  // index. What holds a pinned point stays flexible. Throws InputError naming what is wrong with the
-  // model, or that it is pinned and kAlwaysRigid is asked for.
+  // index. What holds a pinned point stays flexible, what is under load starts so. Throws
+  // InputError naming what is wrong with the model, or that it is pinned and kAlwaysRigid is asked
+  // for.
   std::size_t add(PhysicalModel model);
 
   // The air that all faces with a drag coefficient feel, in either representation. None at first.
@@ -125,7 +127,8 @@ class CoSimulation {
   // The object as it is now: positions, velocities, breaks. Can be edited, glued and added again.
   PhysicalModel model(std::size_t object) const;
 
-  // What is seen of it: boundary() of model(), kept up to date at the cost of what breaks.
+  // What is seen of it: boundary() of model(). Which faces these are is kept up to date at the cost
+  // of what breaks; putting them together costs the object.
   SurfaceModel surface(std::size_t object) const;
 
   // Why the simulation of the lattices stopped, if it did; ask after every stepSimulation().
@@ -145,7 +148,8 @@ class CoSimulation {
   const std::vector<BreakRecord>& breaks() const;
   const std::vector<SplitRecord>& splits() const;
 
-  // Hash of every bit of state, Bullet's bodies included.
+  // Hash of every bit of the points, of what is broken, of the roles, and of the poses and
+  // velocities of all of Bullet's bodies.
   std::uint64_t state_hash() const;
 
  private:

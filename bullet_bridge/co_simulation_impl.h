@@ -68,12 +68,14 @@ class CoSimulation::Impl : public TickHooks {
   void thaw_what_will_be_hit(double dt);
   void thaw_what_lattices_hit(double dt);
   void blow_on_proxies(double dt);
+  Vec3 blow_on(const Piece& piece, double dt);
   void step_lattices(double dt);
   void fly_free_proxies(double dt);
   void split_broken_pieces();
   void split(const Piece& piece, std::vector<std::vector<std::int32_t>> groups);
   void name_pieces_of_breaks();
   void freeze_calm_pieces(double dt);
+  void note_carried_load(Piece& piece) const;
   void step_debris(double dt);
   void count_time(double dt);
 
@@ -98,9 +100,10 @@ class CoSimulation::Impl : public TickHooks {
   void set_role(const Piece& piece, PointRole role);
   std::vector<Piece*> flexible_pieces() const;
   std::vector<std::vector<std::int32_t>> connected_groups(const Piece& piece);
-  bool becomes_debris(std::size_t object, std::span<const std::int32_t> points) const;
+  bool becomes_debris(std::span<const std::int32_t> points) const;
   void turn_to_debris(std::span<const std::int32_t> points);
   Piece& add_piece(std::size_t object, std::vector<std::int32_t> points);
+  void start(Piece& piece);
   void judge_impulse(Piece& piece, double dt);
   Calmness look_at(const Piece& piece) const;
   Numbers numbers_of(const Piece& piece, const Calmness& seen) const;

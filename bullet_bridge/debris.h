@@ -21,8 +21,8 @@ class Debris {
   void add(std::int32_t point) { points_.push_back({point}); }
   std::size_t size() const { return points_.size(); }
 
-  // One tick for all: x += (v + v') dt / 2, v' = v + g dt, or to the first hit. Particles older than
-  // `lifetime` (s) are let go; returns their mass, kg.
+  // One tick for all: x += (v + v') dt / 2, v' = v + g dt, or to the first hit. Particles older
+  // than `lifetime` (s) are let go; returns their mass, kg.
   double step(btDiscreteDynamicsWorld& world, Lattice& lattice,
               const std::unordered_set<const btCollisionObject*>& ignored, double dt,
               double lifetime);

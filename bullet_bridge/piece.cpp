@@ -45,10 +45,24 @@ double rms_vibration(const Lattice& lattice, std::span<const std::int32_t> point
 }
 
 double contact_load(const Lattice& lattice, std::span<const std::int32_t> points,
-                    const Vec3& gravity_m_s2) {
-  Vec3 force = Vec3::Zero();
+                    const Vec3& gravity_m_s2, const Vec3& air_force) {
+  Vec3 force = -air_force;
   for (std::int32_t p : points) force += lattice.force[p] - lattice.mass[p] * gravity_m_s2;
   return force.norm();
+}
+
+double largest_load(const Lattice& lattice, std::span<const std::int32_t> points) {
+  double largest = 0.0;
+  for (std::int32_t p : points) {
+    for (std::int32_t e : lattice.point_edges[p]) {
+      const Spring& s = lattice.springs[e];
+      if (s.a != p || lattice.breaking.edge_broken[e]) continue;
+      const Vec3 d = lattice.motion[s.b].position - lattice.motion[s.a].position;
+      const double stretch = d.norm() - s.rest_length;
+      largest = std::max({largest, stretch / s.break_threshold, -stretch / s.crush_threshold});
+    }
+  }
+  return largest;
 }
 
 void measure(Piece& piece, const Lattice& lattice) {

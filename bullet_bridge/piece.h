@@ -23,7 +23,8 @@ struct Piece {
   double stored_J = 0.0;              // elastic energy, while rigid
   double carried_load = 0.0;          // N, of its contacts when it became rigid
   double sustained_load = 0.0;        // N, of its contacts since then, averaged over time
-  double air_load = 0.0;              // N, mean force of the air in the last tick, while rigid
+  Vec3 carried_air = Vec3::Zero();    // N, force of the air then, in the body's frame
+  Vec3 air_load = Vec3::Zero();       // N, its mean in the last tick, in the body's frame
   int calm_ticks = 0;                 // while flexible
   double peak_load = 0.0;             // of the last tick, while flexible
   bool touched = false;               // by anything since it turned flexible
@@ -40,10 +41,13 @@ PieceStrength strength_of(const Lattice& lattice, std::span<const std::int32_t> 
 // Root mean square speed about the piece's rigid motion, m/s.
 double rms_vibration(const Lattice& lattice, std::span<const std::int32_t> points);
 
-// Magnitude of the contact forces on the piece in the last substep, N: what gravity and the
-// springs, which cancel, leave of the force on its points.
+// Magnitude of the contact forces on the piece in the last substep, N: what gravity, the air (N, on
+// the whole piece) and the springs, which cancel, leave of the force on its points.
 double contact_load(const Lattice& lattice, std::span<const std::int32_t> points,
-                    const Vec3& gravity_m_s2);
+                    const Vec3& gravity_m_s2, const Vec3& air_force);
+
+// Largest share of its threshold that one of the unbroken springs bears as the points are now.
+double largest_load(const Lattice& lattice, std::span<const std::int32_t> points);
 
 // Fills strength and size from the points.
 void measure(Piece& piece, const Lattice& lattice);

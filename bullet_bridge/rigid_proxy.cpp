@@ -90,7 +90,8 @@ ProxyFrame proxy_frame(const RigidMotion& motion) {
   frame.mass = motion.mass;
   frame.centre = motion.centre;
   frame.orientation = Eigen::Quaterniond(axes).normalized();
-  const double largest = principal.eigenvalues()[2];
+  // Points all in one place have no moment at all: those of a ball of a tenth of a millimetre.
+  const double largest = std::max(principal.eigenvalues()[2], 1e-8 * motion.mass);
   frame.moments = principal.eigenvalues().cwiseMax(kSmallestMomentShare * largest);
   frame.regularised = frame.moments != principal.eigenvalues();
   frame.velocity = motion.velocity;
@@ -167,14 +168,18 @@ FlightState RigidProxy::start_of_flight() const {
   return start;
 }
 
-double RigidProxy::air_force(const Air& air, double time) const {
+Vec3 RigidProxy::to_world(const Vec3& of_body) const {
+  return from_bullet(body_->getWorldTransform().getRotation()) * of_body;
+}
+
+Vec3 RigidProxy::air_force(const Air& air, double time) const {
   const RigidMotion now = motion();
   const Mat3 rotation = from_bullet(body_->getWorldTransform().getRotation()).toRotationMatrix();
   const BodyMotion pose{now.centre, rotation, now.velocity, now.angular_velocity};
-  return rigid_face_wrench(flying_.faces, pose, air, time).force.norm();
+  return rotation.transpose() * rigid_face_wrench(flying_.faces, pose, air, time).force;
 }
 
-double RigidProxy::feel_air(const Air& air, double time, double tick) {
+Vec3 RigidProxy::feel_air(const Air& air, double time, double tick) {
   const Vec3 gravity = from_bullet(body_->getGravity());
   const FlightState start = start_of_flight();
   const FlightState end = flown(flying_, air, gravity, time, tick, start);
@@ -184,8 +189,9 @@ double RigidProxy::feel_air(const Air& air, double time, double tick) {
   const Vec3 spun = angular_velocity(flying_, turned) - start_angular_velocity_;
   body_->setLinearVelocity(body_->getLinearVelocity() + to_bullet(blown));
   body_->setAngularVelocity(body_->getAngularVelocity() + to_bullet(spun));
+  foreseen_angular_velocity_ = body_->getAngularVelocity();
   flight_end_ = end;
-  return flying_.mass * blown.norm() / tick;
+  return start_orientation_.conjugate() * Vec3(flying_.mass / tick * blown);
 }
 
 void RigidProxy::remember() {
@@ -194,6 +200,7 @@ void RigidProxy::remember() {
   start_position_ = from_bullet(body_->getWorldTransform().getOrigin());
   start_orientation_ = from_bullet(body_->getWorldTransform().getRotation());
   start_angular_velocity_ = from_bullet(body_->getAngularVelocity());
+  foreseen_angular_velocity_ = body_->getAngularVelocity();
   const bool as_written = body_->getWorldTransform().getBasis() == written_basis_ &&
                           body_->getAngularVelocity() == written_angular_velocity_;
   if (!as_written) return;
@@ -205,14 +212,17 @@ void RigidProxy::fly(double tick) {
   const Vec3 velocity = from_bullet(body_->getLinearVelocity());
   Vec3 position = start_position_ + 0.5 * tick * (start_velocity_ + velocity);
   Eigen::Quaterniond orientation = start_orientation_;
-  Vec3 omega = start_angular_velocity_;
+  const Vec3 half_twist =
+      0.5 * from_bullet(body_->getAngularVelocity() - foreseen_angular_velocity_);
+  Vec3 omega = start_angular_velocity_ + half_twist;
   if (flight_end_) {
-    position = flight_end_->centre;
-    orientation = flight_end_->orientation;
-    omega = angular_velocity(flying_, *flight_end_);
+    position = flight_end_->centre + 0.5 * tick * (velocity - flight_end_->velocity);
+    orientation = turned(flight_end_->orientation, half_twist, tick);
+    omega = angular_velocity(flying_, *flight_end_) + half_twist;
   } else {
     rotate_freely(orientation, omega, moments_, tick);
   }
+  omega += half_twist;
   const btTransform pose(to_bullet(orientation), to_bullet(position));
   body_->setWorldTransform(pose);
   body_->setInterpolationWorldTransform(pose);

@@ -59,26 +59,28 @@ class RigidProxy {
 
   // The same wind as its lattice would feel. Computes the flight through the air over the tick to
   // come and gives the body what the air changes of its velocities in that time. Between remember()
-  // and the solver. Returns the mean force of the air, N.
+  // and the solver. Returns the mean force of the air, N, in the body's frame.
   bool feels_air() const { return !flying_.faces.empty(); }
-  double feel_air(const Air& air, double time, double tick);
+  Vec3 feel_air(const Air& air, double time, double tick);
 
-  // Force of the air as the body is now, N.
-  double air_force(const Air& air, double time) const;
+  // Force of the air as the body is now, N, in its frame.
+  Vec3 air_force(const Air& air, double time) const;
+  Vec3 to_world(const Vec3& of_body) const;
 
   // Free flight. Bullet's step x += v' dt falls g t dt / 2 too far and keeps omega where it should
   // keep L. remember() before the solver, fly() after the move: the path of constant acceleration
   // x += (v + v') dt / 2, and the rotation of a free body. The rotation goes on in double as long
   // as nobody else changes the body. A body that feels the air goes where feel_air() had it go.
+  // What a game's own forces and torques changed of the velocities in this tick comes on top.
   void remember();
   void fly(double tick);
 
   double impulse = 0.0;  // N s, magnitude of all contact impulses of the last tick
 
  private:
-  btDiscreteDynamicsWorld& world_;
   FlightState start_of_flight() const;
 
+  btDiscreteDynamicsWorld& world_;
   std::vector<Vec3> local_;  // shape (points)
   FlyingBody flying_;        // with the faces that feel the air
   std::optional<FlightState> flight_end_;  // of this tick
@@ -95,6 +97,7 @@ class RigidProxy {
   Vec3 flown_angular_velocity_;
   btMatrix3x3 written_basis_;  // what Bullet was given for them
   btVector3 written_angular_velocity_;
+  btVector3 foreseen_angular_velocity_;  // Bullet's after solving, if nothing turns the body
 };
 
 }  // namespace LIMBER_BULLET_PRECISION

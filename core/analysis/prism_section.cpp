@@ -149,6 +149,10 @@ double contraction(const Layer& layer, const Eigen::VectorXd& warp, double spaci
 }  // namespace
 
 PrismSection prism_section(const PhysicalModel& bar, double layer_spacing_m) {
+  if (!(std::isfinite(layer_spacing_m) && layer_spacing_m > 0.0)) {
+    throw InputError({bar.name, "the layers' spacing is " + std::to_string(layer_spacing_m) + " m",
+                      "give it a finite one above 0"});
+  }
   const IdVector<PointId, long> number = layer_numbers(bar, layer_spacing_m);
   const long highest = number.empty() ? 0 : *std::max_element(number.begin(), number.end());
   if (highest < 2) refuse(bar, "there are fewer than three layers");

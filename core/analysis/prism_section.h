@@ -18,8 +18,8 @@ struct PrismSection {
 // springs of a middle layer, in it and to the layers above, imposes a uniform stretch, curvature or
 // twist, and lets the layer warp (the same in every layer) until its energy is least. Linear, about
 // the undeformed state: rest lengths and pins do not count. Dense, for layers of up to about 400
-// points. Throws InputError when there are too few layers or a spring's far end has no counterpart
-// in the middle layer.
+// points. Throws InputError for a spacing that is not above 0, too few layers, and a spring whose
+// far end has no counterpart in the middle layer.
 PrismSection prism_section(const PhysicalModel& bar, double layer_spacing_m);
 
 }  // namespace limber

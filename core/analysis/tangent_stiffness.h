@@ -7,7 +7,8 @@
 
 namespace limber {
 
-// Internal to core/analysis and core/dynamics: the unbroken springs of a model, linearised where its points are.
+// Internal to core/analysis and core/dynamics: the unbroken springs of a model, linearised where
+// its points are.
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 

@@ -35,7 +35,10 @@ void append_topology(BreakingTopology& to, const BreakingTopology& from, std::in
   to.edge_sheet_faces =
       shifted_rows_appended(std::move(to.edge_sheet_faces), from.edge_sheet_faces, faces);
   append_shifted(to.face_cell, from.face_cell, cells);
-  append_shifted(to.face_twin, from.face_twin, faces);
+  for (const TwinFace& twin : from.face_twin) {
+    const bool none = twin.face < 0;
+    to.face_twin.push_back(none ? TwinFace{} : TwinFace{twin.face + faces, twin.cell + cells});
+  }
 }
 
 template <class T>
@@ -43,30 +46,32 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-IndexRows edges_of_points(const std::vector<Spring>& springs, std::size_t points) {
+IndexRows edges_of_points(const GeometricModel& geometry) {
   IndexRows rows;
-  rows.start.assign(points + 1, 0);
-  for (const Spring& s : springs) ++rows.start[s.a + 1], ++rows.start[s.b + 1];
-  for (std::size_t p = 0; p < points; ++p) rows.start[p + 1] += rows.start[p];
+  rows.start.assign(geometry.points.size() + 1, 0);
+  for (const Edge& e : geometry.edges) ++rows.start[e.a.value + 1], ++rows.start[e.b.value + 1];
+  for (std::size_t p = 0; p < geometry.points.size(); ++p) rows.start[p + 1] += rows.start[p];
   rows.items.resize(rows.start.back());
   std::vector<std::int32_t> next(rows.start.begin(), rows.start.end() - 1);
-  for (std::size_t e = 0; e < springs.size(); ++e) {
-    rows.items[next[springs[e].a]++] = static_cast<std::int32_t>(e);
-    rows.items[next[springs[e].b]++] = static_cast<std::int32_t>(e);
+  for (EdgeId e : ids_of(geometry.edges)) {
+    rows.items[next[geometry.edges[e].a.value]++] = e.value;
+    rows.items[next[geometry.edges[e].b.value]++] = e.value;
   }
   return rows;
 }
 
-std::vector<std::int32_t> neighbours_of_points(const Lattice& lattice) {
-  std::vector<std::int32_t> neighbours;
-  neighbours.reserve(lattice.point_edges.items.size());
-  for (std::size_t p = 0; p < lattice.motion.size(); ++p) {
+// The links of the points just appended: linking all objects anew would cost the square of their
+// number. After append_springs().
+void append_point_links(Lattice& lattice, const GeometricModel& geometry,
+                        const LatticeObject& object) {
+  lattice.point_edges = shifted_rows_appended(std::move(lattice.point_edges),
+                                              edges_of_points(geometry), object.edges.begin);
+  for (std::int32_t p = object.points.begin; p < object.points.end; ++p) {
     for (std::int32_t e : lattice.point_edges[p]) {
       const Spring& s = lattice.springs[e];
-      neighbours.push_back(s.a == static_cast<std::int32_t>(p) ? s.b : s.a);
+      lattice.point_neighbours.push_back(s.a == p ? s.b : s.a);
     }
   }
-  return neighbours;
 }
 
 double median(std::vector<double> values) {
@@ -118,11 +123,27 @@ double largest_damping_time(const PhysicalModel& model) {  // s, c / k
   return time;
 }
 
+// Edges that damp without a spring, by Gershgorin's circles: C <= max_i 2 sum c / m_i, 1/s.
+double pure_damping_rate(const PhysicalModel& model) {
+  IdVector<PointId, double> damping(model.points.size(), 0.0);
+  for (EdgeId e : ids_of(model.geometry.edges)) {
+    if (model.edges[e].stiffness > 0.0) continue;
+    damping[model.geometry.edges[e].a] += model.edges[e].damping;
+    damping[model.geometry.edges[e].b] += model.edges[e].damping;
+  }
+  double rate = 0.0;
+  for (PointId p : ids_of(model.points)) {
+    rate = std::max(rate, 2.0 * damping[p] / model.points[p].mass);
+  }
+  return rate;
+}
+
 void set_step(LatticeObject& object, const PhysicalModel& model) {
   object.contact_frequency = contact_frequency_of(model);
   object.spring_frequency = highest_frequency(model).omega_max;
   object.spring_damping =
-      largest_damping_time(model) * object.spring_frequency * object.spring_frequency;
+      largest_damping_time(model) * object.spring_frequency * object.spring_frequency +
+      pure_damping_rate(model);
   object.least_mass = kUnbreakable;
   for (const PointAttributes& p : model.points) {
     object.least_mass = std::min(object.least_mass, p.mass);
@@ -217,12 +238,12 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   append_topology(lattice.topology, topology, object.edges.begin, object.cells.begin,
                   object.faces.begin);
   append(lattice.breaking.edge_broken, state.edge_broken);
+  append(lattice.breaking.valid_cells, state.valid_cells);
   append(lattice.breaking.cell_valid, state.cell_valid);
   append(lattice.breaking.face_external, state.face_external);
   append_points(lattice, model);
   append_springs(lattice, model, object.points.begin);
-  lattice.point_edges = edges_of_points(lattice.springs, lattice.motion.size());
-  lattice.point_neighbours = neighbours_of_points(lattice);
+  append_point_links(lattice, model.geometry, object);
   object.authored = std::move(model);
   lattice.objects.push_back(std::move(object));
   return lattice.objects.size() - 1;
@@ -234,7 +255,9 @@ double largest_step(const LatticeObject& object, double stiffness, double dampin
                                  object.contact_frequency * object.contact_frequency +
                                  stiffness / object.least_mass);
   const double rate = object.spring_damping + damping / object.least_mass;
-  return kStepSafety * stable_step(omega, omega > 0.0 ? rate / (2.0 * omega) : 0.0);
+  // Dampers alone: v' = (1 - C dt) v is stable to C dt = 2.
+  if (omega == 0.0) return rate > 0.0 ? kStepSafety * 2.0 / rate : stable_step(0.0, 0.0);
+  return kStepSafety * stable_step(omega, rate / (2.0 * omega));
 }
 
 void rebuild_active(Lattice& lattice) {

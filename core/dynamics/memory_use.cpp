@@ -1,5 +1,7 @@
 #include "core/dynamics/memory_use.h"
 
+#include <type_traits>
+
 namespace limber {
 namespace {
 
@@ -44,8 +46,8 @@ MemoryUse memory_use(const Lattice& lattice) {
   use.breaking = bytes(topology.cell_edges) + bytes(topology.edge_cells) +
                  bytes(topology.cell_faces) + bytes(topology.edge_sheet_faces) +
                  bytes(topology.face_cell, topology.face_twin) +
-                 bytes(lattice.breaking.edge_broken, lattice.breaking.cell_valid,
-                       lattice.breaking.face_external);
+                 bytes(lattice.breaking.edge_broken, lattice.breaking.valid_cells,
+                       lattice.breaking.cell_valid, lattice.breaking.face_external);
   for (const LatticeObject& object : lattice.objects) use.authored += bytes(object.authored);
   return use;
 }

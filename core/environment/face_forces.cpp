@@ -7,8 +7,6 @@
 namespace limber {
 namespace {
 
-const PhysicalModel& authored_model(const LatticeObject& object) { return object.authored; }
-
 bool has_corners(const DragFace& face, auto is_wanted) {
   return is_wanted(face.a) && is_wanted(face.b) && is_wanted(face.c);
 }
@@ -16,7 +14,7 @@ bool has_corners(const DragFace& face, auto is_wanted) {
 // Appends the seen faces with drag of one object, if all their corners are wanted.
 void append_faces(const Lattice& lattice, const LatticeObject& object, auto is_wanted,
                   std::vector<DragFace>& faces) {
-  const PhysicalModel& model = authored_model(object);
+  const PhysicalModel& model = object.authored;
   for (std::int32_t f = object.faces.begin; f < object.faces.end; ++f) {
     const FaceId id(static_cast<std::size_t>(f - object.faces.begin));
     if (!lattice.breaking.face_external[f] || !has_drag(model.faces[id])) continue;

@@ -1,6 +1,10 @@
 #include "core/environment/ground_contact.h"
 
 #include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/model/errors.h"
 
 namespace limber {
 namespace {
@@ -9,6 +13,17 @@ bool is_hard(const Ground& ground) { return std::isinf(ground.stiffness); }
 
 double depth_of(const Ground& ground, const Vec3& position) {
   return ground.height - ground.normal.dot(position);
+}
+
+// A point that starts deep in a hard ground would be put onto it at once, and stretch its springs.
+void require_above(const Lattice& lattice, const Ground& ground, std::int32_t p) {
+  constexpr double kRounding = 1e-6;  // m
+  const double depth = depth_of(ground, lattice.motion[p].position);
+  if (depth <= kRounding) return;
+  const LatticeObject& object = lattice.objects[lattice.point_object[p]];
+  throw InputError({object.authored.name + ": point " + std::to_string(p - object.points.begin),
+                    "it lies " + std::to_string(depth) + " m deep in a hard ground",
+                    "lift the object, or give the ground a stiffness"});
 }
 
 }  // namespace
@@ -25,7 +40,9 @@ void GroundContact::stop_what_enters(Lattice& lattice, const Ground& ground,
   if (!is_hard(ground)) return;
   resize(lattice.motion.size());
   for (std::int32_t p : lattice.dynamic_points) {
-    if (lattice.inverse_mass[p] > 0.0) stop_at_surface(lattice, ground, p, report);
+    if (lattice.inverse_mass[p] == 0.0) continue;
+    require_above(lattice, ground, p);
+    stop_at_surface(lattice, ground, p, report);
   }
 }
 
@@ -52,10 +69,9 @@ void GroundContact::finish_step(Lattice& lattice, const Ground& ground, double d
                                 double moved_share, GroundReport& report) {
   resize(lattice.motion.size());
   for (std::int32_t p : lattice.dynamic_points) {
-    if (lattice.inverse_mass[p] == 0.0) continue;
-    double normal_impulse = normal_force_[p] * dt;
+    double normal_impulse = std::exchange(normal_force_[p], 0.0) * dt;
     report.impulse += normal_impulse * ground.normal;
-    normal_force_[p] = 0.0;
+    if (lattice.inverse_mass[p] == 0.0) continue;
     if (is_hard(ground)) normal_impulse += stop_at_surface(lattice, ground, p, report);
     rub(lattice, ground, p, normal_impulse, moved_share * dt, report);
   }

@@ -68,6 +68,7 @@ void check_ends(const GeometricModel& model, DiagnosticList& out) {
 // Two springs side by side would carry twice the load and break one after the other.
 void check_parallel_edges(const GeometricModel& model, DiagnosticList& out) {
   std::vector<std::pair<DirectedSide, EdgeId>> sorted;
+  sorted.reserve(model.edges.size());
   for (EdgeId e : ids_of(model.edges)) {
     const auto [low, high] = std::minmax(model.edges[e].a, model.edges[e].b);
     sorted.push_back({{low, high}, e});
@@ -110,6 +111,7 @@ void check_faces(const GeometricModel& model, DiagnosticList& out) {
 // Two cells on the same side of one triangle overlap, and no reverse face is unique any more.
 void check_equal_faces(const GeometricModel& model, DiagnosticList& out) {
   std::vector<std::pair<std::array<PointId, 3>, FaceId>> sorted;
+  sorted.reserve(model.faces.size());
   for (FaceId f : ids_of(model.faces))
     if (model.faces[f].cell.valid()) sorted.push_back({model.faces[f].corners, f});
   std::sort(sorted.begin(), sorted.end());

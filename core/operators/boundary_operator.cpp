@@ -15,7 +15,7 @@ std::vector<FaceId> external_faces(const PhysicalModel& model, const BreakingTop
 
 // One triangle for every face; the corners are still those of the physical model.
 std::vector<SurfaceTriangle> triangles_of(const PhysicalModel& model, std::span<const FaceId> faces,
-                                          std::span<const std::int32_t> face_twin) {
+                                          std::span<const TwinFace> face_twin) {
   const std::vector<Subobject>& subobjects = model.geometry.subobjects;
   std::vector<SurfaceTriangle> triangles;
   triangles.reserve(faces.size());
@@ -25,7 +25,7 @@ std::vector<SurfaceTriangle> triangles_of(const PhysicalModel& model, std::span<
       ++subobject;  // their ranges follow each other
     const auto& [p, q, r] = model.geometry.faces[f].corners;
     // External although it has a reverse: that one's cell is gone.
-    const bool was_inner = face_twin[f.index()] >= 0;
+    const bool was_inner = face_twin[f.index()].face >= 0;
     triangles.push_back({{p.value, q.value, r.value}, f, static_cast<int>(subobject), was_inner});
   }
   return triangles;
@@ -66,7 +66,7 @@ SurfaceModel boundary(const PhysicalModel& model, const BreakingTopology& topolo
 }
 
 SurfaceModel surface_of(const PhysicalModel& model, std::span<const FaceId> faces,
-                        std::span<const std::int32_t> face_twin) {
+                        std::span<const TwinFace> face_twin) {
   SurfaceModel surface;
   surface.triangles = triangles_of(model, faces, face_twin);
   keep_used_points(model, surface);

@@ -17,8 +17,8 @@ SurfaceModel boundary(const PhysicalModel& model);
 SurfaceModel boundary(const PhysicalModel& model, const BreakingTopology& topology);
 
 // The surface made of these faces of the model, ascending. Costs what the surface costs, not the
-// model. `face_twin`: face -> its reverse face or -1, as in BreakingTopology.
+// model. `face_twin`: face -> its reverse face, as in BreakingTopology.
 SurfaceModel surface_of(const PhysicalModel& model, std::span<const FaceId> faces,
-                        std::span<const std::int32_t> face_twin);
+                        std::span<const TwinFace> face_twin);
 
 }  // namespace limber

@@ -56,7 +56,7 @@ std::vector<FaceId> BoundaryTracker::faces_of(IdRange<FaceId> range) const {
 
 SurfaceModel BoundaryTracker::surface(const PhysicalModel& model, const BreakingTopology& topology,
                                       IdRange<FaceId> range) const {
-  const std::span<const std::int32_t> twins = topology.face_twin;
+  const std::span<const TwinFace> twins = topology.face_twin;
   return surface_of(model, faces_of(range), twins.subspan(range.begin, range.end - range.begin));
 }
 

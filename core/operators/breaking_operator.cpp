@@ -19,8 +19,11 @@ IndexRows index_rows(const Lists& owners, ListOf list_of) {
   rows.start.reserve(owners.size() + 1);
   rows.start.push_back(0);
   for (const auto& owner : owners) {
+    rows.start.push_back(rows.start.back() + static_cast<std::int32_t>(list_of(owner).size()));
+  }
+  rows.items.reserve(rows.start.back());
+  for (const auto& owner : owners) {
     for (IdType id : list_of(owner)) rows.items.push_back(id.value);
-    rows.start.push_back(static_cast<std::int32_t>(rows.items.size()));
   }
   return rows;
 }
@@ -33,18 +36,23 @@ std::vector<std::int32_t> face_cells(const GeometricModel& geometry) {
 }
 
 // Two faces are each other's reverse when one lists the corners of the other backwards. Both start
-// with the smallest id, so that comparing the three numbers is enough (paper, section 5.4).
-std::vector<std::int32_t> face_twins(const GeometricModel& geometry) {
-  using Entry = std::pair<std::array<PointId, 3>, FaceId>;
-  std::vector<Entry> sorted;
-  for (FaceId f : ids_of(geometry.faces))
-    if (geometry.faces[f].cell.valid()) sorted.push_back({geometry.faces[f].corners, f});
+// with the smallest id, so that they differ in the order of the other two (paper, section 5.4):
+// sorted by the corners without that order, they stand side by side.
+std::vector<TwinFace> face_twins(const GeometricModel& geometry) {
+  std::vector<std::array<std::int32_t, 4>> sorted;  // three corners, face
+  sorted.reserve(geometry.faces.size());
+  for (FaceId f : ids_of(geometry.faces)) {
+    const auto& [p, q, r] = geometry.faces[f].corners;
+    if (!geometry.faces[f].cell.valid()) continue;
+    sorted.push_back({p.value, std::min(q, r).value, std::max(q, r).value, f.value});
+  }
   std::sort(sorted.begin(), sorted.end());
-  std::vector<std::int32_t> twins(geometry.faces.size(), -1);
-  for (const auto& [corners, f] : sorted) {
-    const Entry wanted{reversed(corners), FaceId()};
-    const auto twin = std::lower_bound(sorted.begin(), sorted.end(), wanted);
-    if (twin != sorted.end() && twin->first == wanted.first) twins[f.index()] = twin->second.value;
+  std::vector<TwinFace> twins(geometry.faces.size());
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const FaceId f(std::size_t(sorted[i - 1][3])), g(std::size_t(sorted[i][3]));
+    if (geometry.faces[g].corners != reversed(geometry.faces[f].corners)) continue;
+    twins[f.index()] = {g.value, geometry.faces[g].cell.value};
+    twins[g.index()] = {f.value, geometry.faces[f].cell.value};
   }
   return twins;
 }
@@ -102,42 +110,24 @@ void prefetch_rows_of(const BreakingTopology& topology, std::span<const std::int
   }
 }
 
-// Of every edge the first cell, which is a valid one more often than not.
-void prefetch_edges_of(const BreakingTopology& topology, const BreakingState& state,
-                       std::span<const std::int32_t> cells) {
-  const IndexRows& edge_cells = topology.edge_cells;
-  for (std::int32_t cell : cells)
-    for (std::int32_t edge : topology.cell_edges[cell])
-      prefetch(&edge_cells.items[edge_cells.start[edge]]);
-  for (std::int32_t cell : cells)
-    for (std::int32_t edge : topology.cell_edges[cell])
-      prefetch(&state.cell_valid[edge_cells.items[edge_cells.start[edge]]]);
-}
-
-void prefetch_twins_of(const BreakingTopology& topology, const BreakingState& state,
-                       std::span<const std::int32_t> cells) {
-  for (std::int32_t cell : cells)
-    for (std::int32_t face : topology.cell_faces[cell]) {
-      const std::int32_t twin = topology.face_twin[face];
-      if (twin < 0) continue;
-      prefetch(&topology.face_cell[twin]);
-      prefetch(&state.face_external[twin]);
-    }
-}
-
 // Level by level: each pass needs what the one before has fetched.
 void prefetch_around(const BreakingTopology& topology, const BreakingState& state,
                      std::span<const std::int32_t> cells) {
   prefetch_rows_of(topology, cells);
   for (std::int32_t cell : cells) {
-    for (std::int32_t edge : topology.cell_edges[cell]) prefetch(&topology.edge_cells.start[edge]);
+    for (std::int32_t edge : topology.cell_edges[cell]) prefetch(&state.valid_cells[edge]);
     for (std::int32_t face : topology.cell_faces[cell]) {
       prefetch(&topology.face_twin[face]);
       prefetch(&state.face_external[face]);
     }
   }
-  prefetch_twins_of(topology, state, cells);
-  prefetch_edges_of(topology, state, cells);
+  for (std::int32_t cell : cells)
+    for (std::int32_t face : topology.cell_faces[cell]) {
+      const TwinFace& twin = topology.face_twin[face];
+      if (twin.face < 0) continue;
+      prefetch(&state.cell_valid[twin.cell]);
+      prefetch(&state.face_external[twin.face]);
+    }
 }
 
 // ---- the three steps ---------------------------------------------------------------------------
@@ -157,24 +147,20 @@ void invalidate_cells_of(const BreakingTopology& topology, BreakingState& state,
   }
 }
 
-bool has_valid_cell(const BreakingTopology& topology, const BreakingState& state,
-                    std::int32_t edge) {
-  const auto cells = topology.edge_cells[edge];
-  return std::any_of(cells.begin(), cells.end(), [&](auto c) { return state.cell_valid[c] != 0; });
-}
-
 // Breaks no further cell: such an edge belongs to invalid cells only, so the rule ends here.
 void break_unshared_edges(const BreakingTopology& topology, BreakingState& state,
                           BreakingResult& result) {
   for (std::int32_t cell : result.invalid_cells)
+    for (std::int32_t edge : topology.cell_edges[cell]) --state.valid_cells[edge];
+  for (std::int32_t cell : result.invalid_cells)
     for (std::int32_t edge : topology.cell_edges[cell])
-      if (!has_valid_cell(topology, state, edge)) mark_broken(state, edge, result);
+      if (state.valid_cells[edge] == 0) mark_broken(state, edge, result);
 }
 
-bool is_external(const BreakingTopology& topology, const BreakingState& state, std::int32_t face) {
-  const std::int32_t twin = topology.face_twin[face];
-  return state.cell_valid[topology.face_cell[face]] &&
-         (twin < 0 || !state.cell_valid[topology.face_cell[twin]]);
+bool reversed_by_valid_cell(const BreakingTopology& topology, const BreakingState& state,
+                            std::int32_t face) {
+  const TwinFace& twin = topology.face_twin[face];
+  return twin.face >= 0 && state.cell_valid[twin.cell];
 }
 
 // A face shows when its reverse has lost its cell and its own is still there.
@@ -182,11 +168,19 @@ void expose_faces(const BreakingTopology& topology, BreakingState& state, Breaki
   for (std::int32_t cell : result.invalid_cells)
     for (std::int32_t face : topology.cell_faces[cell]) {
       state.face_external[face] = 0;
-      const std::int32_t twin = topology.face_twin[face];
-      if (twin < 0 || !state.cell_valid[topology.face_cell[twin]]) continue;
+      if (!reversed_by_valid_cell(topology, state, face)) continue;
+      const std::int32_t twin = topology.face_twin[face].face;
       state.face_external[twin] = 1;
       result.exposed_faces.push_back(twin);
     }
+}
+
+std::vector<std::int32_t> valid_cells_of_edges(const BreakingTopology& topology,
+                                               const std::vector<std::uint8_t>& cell_valid) {
+  std::vector<std::int32_t> count(topology.edge_cells.rows(), 0);
+  for (std::size_t e = 0; e < count.size(); ++e)
+    for (std::int32_t cell : topology.edge_cells[e]) count[e] += cell_valid[cell];
+  return count;
 }
 
 void hide_sheet_faces_of(const BreakingTopology& topology, BreakingState& state,
@@ -214,9 +208,13 @@ BreakingState breaking_state(const PhysicalModel& model, const BreakingTopology&
   BreakingState state;
   for (const EdgeAttributes& edge : model.edges) state.edge_broken.push_back(edge.broken);
   for (const CellAttributes& cell : model.cells) state.cell_valid.push_back(cell.valid);
+  state.valid_cells = valid_cells_of_edges(topology, state.cell_valid);
   const auto faces = static_cast<std::int32_t>(topology.face_cell.size());
-  for (std::int32_t f = 0; f < faces; ++f)
-    state.face_external.push_back(topology.face_cell[f] < 0 || is_external(topology, state, f));
+  for (std::int32_t f = 0; f < faces; ++f) {
+    const std::int32_t cell = topology.face_cell[f];
+    state.face_external.push_back(
+        cell < 0 || (state.cell_valid[cell] && !reversed_by_valid_cell(topology, state, f)));
+  }
   for (std::size_t e = 0; e < state.edge_broken.size(); ++e)
     if (state.edge_broken[e]) hide_sheet_faces_of(topology, state, static_cast<std::int32_t>(e));
   return state;

@@ -19,19 +19,26 @@ struct IndexRows {
   std::size_t rows() const { return start.empty() ? 0 : start.size() - 1; }
 };
 
+// The reverse of a face, with its cell: what breaking asks of it without reading that face.
+struct TwinFace {
+  std::int32_t face = -1;  // -1: there is none
+  std::int32_t cell = -1;
+};
+
 // The links the breaking operator walks; constant while an object is simulated.
 struct BreakingTopology {
   IndexRows cell_edges;                 // cell -> edges
   IndexRows edge_cells;                 // edge -> cells, the paper's two-way pointer
   IndexRows cell_faces;                 // cell -> faces
   std::vector<std::int32_t> face_cell;  // face -> cell or -1
-  std::vector<std::int32_t> face_twin;  // face -> its reverse face or -1
+  std::vector<TwinFace> face_twin;      // face -> its reverse face
   IndexRows edge_sheet_faces;           // edge -> the faces without a cell that it bounds
 };
 
 // What breaking changes.
 struct BreakingState {
   std::vector<std::uint8_t> edge_broken;    // shape (edges)
+  std::vector<std::int32_t> valid_cells;    // shape (edges), how many of its cells are valid
   std::vector<std::uint8_t> cell_valid;     // shape (cells)
   std::vector<std::uint8_t> face_external;  // shape (faces), maintained by the third step
 };

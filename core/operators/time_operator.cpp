@@ -31,6 +31,20 @@ double TimeOperator::largest_step(const Environment& environment) const {
   return step;
 }
 
+void TimeOperator::require_sound_step(double dt, const Environment& environment,
+                                      const SubstepCoupling* coupling) const {
+  require_valid(environment);
+  if (!(dt > 0.0 && std::isfinite(dt))) {
+    throw InputError({"time operator", "the step is " + std::to_string(dt) + " s",
+                      "give a finite step above 0"});
+  }
+  const bool runge_kutta = integrator_ != Integrator::kSymplecticEuler;
+  if (runge_kutta && coupling && !lattice_.carried_points.empty()) {
+    throw InputError({"time operator", "points are carried by bodies in a Runge-Kutta step",
+                      "use symplectic Euler where lattices touch bodies that carry points"});
+  }
+}
+
 void TimeOperator::roles_changed() {
   pieces_stale_ = true;
   contacts_stale_ = true;
@@ -46,6 +60,7 @@ const Components& TimeOperator::pieces() {
 
 StepReport TimeOperator::advance(int substeps, double dt, const Environment& environment,
                                  SubstepCoupling* coupling) {
+  require_sound_step(dt, environment, coupling);
   StepReport report;
   const double start = time_;
   if (environment.ground) ground_.stop_what_enters(lattice_, *environment.ground, report.ground);

@@ -60,7 +60,8 @@ enum class Integrator {
 // motion, and the load on the springs is sampled into lattice.peak_load.
 //
 // Pinned points stay where they are; lattice.force holds what they carry. Runge-Kutta methods
-// evaluate the coupling once a substep, everything else at every stage.
+// evaluate the coupling once a substep, everything else at every stage; they do not know carried
+// points.
 class TimeOperator {
  public:
   explicit TimeOperator(Lattice& lattice, Integrator integrator = Integrator::kSymplecticEuler)
@@ -76,7 +77,8 @@ class TimeOperator {
   void set_time(double time_s) { time_ = time_s; }
 
   // Integrates `substeps` of `dt` (s). Throws SimulationError that names the point and its object
-  // when a position or velocity is no longer finite.
+  // when a position or velocity is no longer finite, InputError for a step or an environment that
+  // makes no sense and for points deep in a hard ground.
   StepReport advance(int substeps, double dt, const Environment& environment,
                      SubstepCoupling* coupling = nullptr);
 
@@ -95,6 +97,8 @@ class TimeOperator {
   void carried_changed() { carried_stale_ = true; }
 
  private:
+  void require_sound_step(double dt, const Environment& environment,
+                          const SubstepCoupling* coupling) const;
   void refresh_contacts();
   void refresh_faces(const Environment& environment);
   void apply_gravity(const Vec3& gravity);

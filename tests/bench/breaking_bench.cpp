@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <numeric>
 #include <random>
 
 #include "core/contact/point_contacts.h"
@@ -32,68 +34,27 @@ struct Body {
   Tracked now;
 };
 
-void append_points(Lattice& lattice, const GeometricModel& geometry) {
-  const std::size_t points = geometry.points.size();
-  for (const Vec3& at : geometry.points) lattice.motion.push_back({at, Vec3::Zero()});
-  lattice.authored_position = geometry.points.raw();
-  lattice.mass.assign(points, 1e-3);
-  lattice.inverse_mass.assign(points, 1e3);
-  lattice.role.assign(points, PointRole::kDynamic);
-  lattice.contact_radius.assign(points, 0.45 * kSpacing);
-  lattice.point_object.assign(points, 0);
-}
-
-void append_springs(Lattice& lattice, const GeometricModel& geometry) {
-  for (const Edge& edge : geometry.edges) {
-    Spring spring{};
-    spring.a = edge.a.value;
-    spring.b = edge.b.value;
-    spring.rest_length = kSpacing;
-    lattice.springs.push_back(spring);
-  }
-}
-
-void link_points(Lattice& lattice) {
-  std::vector<std::vector<std::array<std::int32_t, 2>>> links(lattice.motion.size());
-  for (std::size_t e = 0; e < lattice.springs.size(); ++e) {
-    const auto edge = static_cast<std::int32_t>(e);
-    const Spring& spring = lattice.springs[e];
-    links[spring.a].push_back({edge, spring.b});
-    links[spring.b].push_back({edge, spring.a});
-  }
-  lattice.point_edges.start.push_back(0);
-  for (const auto& of_point : links) {
-    for (const auto& [edge, neighbour] : of_point) {
-      lattice.point_edges.items.push_back(edge);
-      lattice.point_neighbours.push_back(neighbour);
-    }
-    lattice.point_edges.start.push_back(
-        static_cast<std::int32_t>(lattice.point_edges.items.size()));
-  }
-}
-
-// A cube of cells with their axial edges, compiled by hand: add_object() would find its stable step
-// first, which takes minutes for a million points.
+// A cube of cells with their axial edges.
 Lattice cube(int points_along) {
   const int cells = points_along - 1;
   PhysicalModel model = with_default_attributes(
       box_lattice({cells, cells, cells}, Vec3::Constant(kSpacing), Vec3::Zero(), "cube",
                   {.face_diagonals = false, .body_diagonals = false}),
       "cube");
+  for (PointAttributes& point : model.points) point.mass = 1e-3;  // kg
+  for (EdgeAttributes& edge : model.edges) edge.stiffness = 1e3;  // N/m
   Lattice lattice;
-  lattice.topology = breaking_topology(model.geometry);
-  lattice.breaking = breaking_state(model, lattice.topology);
-  append_points(lattice, model.geometry);
-  append_springs(lattice, model.geometry);
-  link_points(lattice);
-  lattice.objects.emplace_back();
-  lattice.objects[0].contact_frequency = 1e3;
+  add_object(lattice, std::move(model));
   rebuild_active(lattice);
   return lattice;
 }
 
-std::unique_ptr<Body> body(int points_along) {
-  auto made = std::make_unique<Body>();
+// Made once: a million points take half a minute.
+Body& body(int points_along) {
+  static std::map<int, std::unique_ptr<Body>> bodies;
+  std::unique_ptr<Body>& made = bodies[points_along];
+  if (made) return *made;
+  made = std::make_unique<Body>();
   made->lattice = cube(points_along);
   Tracked& intact = made->intact;
   intact.breaking = made->lattice.breaking;
@@ -101,7 +62,7 @@ std::unique_ptr<Body> body(int points_along) {
   intact.boundary.reset(made->lattice.breaking);
   intact.contacts.refresh(made->lattice, intact.pieces.components(), true, false);
   made->now = intact;
-  return made;
+  return *made;
 }
 
 std::int32_t edge_between(const Lattice& lattice, std::int32_t p, std::int32_t q) {
@@ -140,20 +101,30 @@ void restore(Body& body) {
   body.now = body.intact;
 }
 
-void one_edge(benchmark::State& state) {
+// Reads more than the caches hold.
+void flush_caches() {
+  static const std::vector<std::uint64_t> much(std::size_t{1} << 24, 1);  // 128 MB
+  benchmark::DoNotOptimize(std::accumulate(much.begin(), much.end(), std::uint64_t{0}));
+}
+
+enum class Caches { kOfLastBreak, kFlushed };
+
+void one_edge(benchmark::State& state, Caches caches) {
   const int along = static_cast<int>(std::lround(std::cbrt(static_cast<double>(state.range(0)))));
-  const std::unique_ptr<Body> broken = body(along);
-  const std::vector<std::int32_t> edges = scattered_edges(broken->lattice, along);
+  Body& broken = body(along);
+  restore(broken);
+  const std::vector<std::int32_t> edges = scattered_edges(broken.lattice, along);
   BreakingResult result;
   std::vector<double> seconds;
   std::size_t next = 0;
   for (auto _ : state) {
     if (next == edges.size()) {
-      restore(*broken);
+      restore(broken);
       next = 0;
     }
+    if (caches == Caches::kFlushed) flush_caches();
     const auto start = std::chrono::steady_clock::now();
-    break_one(*broken, edges[next++], result);
+    break_one(broken, edges[next++], result);
     const auto end = std::chrono::steady_clock::now();
     seconds.push_back(std::chrono::duration<double>(end - start).count());
     state.SetIterationTime(seconds.back());
@@ -161,17 +132,26 @@ void one_edge(benchmark::State& state) {
   // Beside the mean, which a page fault or another process spoils.
   std::nth_element(seconds.begin(), seconds.begin() + std::ssize(seconds) / 2, seconds.end());
   state.counters["median_us"] = 1e6 * seconds[seconds.size() / 2];
-  state.counters["points"] = static_cast<double>(broken->lattice.motion.size());
+  state.counters["points"] = static_cast<double>(broken.lattice.motion.size());
 }
-// Both do the same work: 1 edge, 4 cells, 32 faces. What differs is where the data are: the small
-// cube stays in the first two caches, of the large one (over 1 GB) nearly every line comes from
-// memory. As many iterations as the large one has edges for.
-BENCHMARK(one_edge)
-    ->Name("breaking/one_edge")
+// All do the same work: 1 edge, 4 cells, 32 faces. What differs is where the data are. Scattered:
+// the small cube stays in the first two caches, of the large one (over 1 GB) nearly every line
+// comes from memory, and its page's address too. As many iterations as the large one has
+// edges for.
+BENCHMARK_CAPTURE(one_edge, scattered, Caches::kOfLastBreak)
+    ->Name("breaking/one_edge/scattered")
     ->Arg(1000)
     ->Arg(1000000)
     ->UseManualTime()
     ->Iterations(12000)
+    ->Unit(benchmark::kMicrosecond);
+// Flushed before every break, as by the springs of other objects: neither cube is in the caches.
+BENCHMARK_CAPTURE(one_edge, flushed, Caches::kFlushed)
+    ->Name("breaking/one_edge/flushed")
+    ->Arg(1000)
+    ->Arg(1000000)
+    ->UseManualTime()
+    ->Iterations(500)
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/modeller/cubic_lattice.h"
+#include "core/operators/gluing_operator.h"
 #include "tests/bridge/measure.h"
 #include "tests/bridge/models.h"
 #include "tests/bridge/world.h"
@@ -94,6 +96,41 @@ TEST(BurstingStick, LeavesPiecesThatBecomeBodiesAndLatticesAgain) {
   world.run(0.1, kTick);
   EXPECT_FALSE(simulation.failure());
   EXPECT_GT(simulation.counters().to_flexible, thawed);
+}
+
+// A model that comes from another simulation may be under load: 0.95 of what its springs bear.
+TEST(Model, AddedUnderLoadIsALatticeFromTheStart) {
+  World world(0.0);
+  CoSimulation simulation(*world);
+  PhysicalModel block = make_block({.strain_at_break = 0.01}, {0.0, 3.0, 0.0});
+  for (Vec3& x : block.geometry.points) x.x() *= 1.0095;
+  simulation.add(block);
+  EXPECT_TRUE(simulation.pieces().at(0).flexible);
+}
+
+// A rope of 20 points hangs on a block by one bond and is pulled off: it is still a rope.
+TEST(Rope, ThatComesOffABlockStaysOne) {
+  const PhysicalModel block = make_block({}, Vec3::Zero());
+  const Vec3 corner = block.geometry.points[PointId(0)];
+  PhysicalModel rope = cubic_lattice({.points = {20, 1, 1},
+                                      .spacing = 0.1,
+                                      .origin = corner - Vec3(1.95, 0.0, 0.0),
+                                      .springs = {.axial = 1e4},
+                                      .mass = 0.01,
+                                      .damping_per_stiffness = 1e-5});
+  for (PointAttributes& point : rope.points) point.velocity = {-3.0, 0.0, 0.0};
+  const GlueResult glued =
+      glue(block, rope, {.distance = 0.06, .stiffness = 1e4, .break_strain = 0.01});
+  ASSERT_EQ(glued.bonds, 1u);
+  World world(0.0);
+  CoSimulation simulation(*world);
+  simulation.add(glued.model);
+  world.run(0.3, kTick);
+  EXPECT_EQ(simulation.breaks().size(), 1u);
+  EXPECT_EQ(simulation.counters().broken_edges, 1u);
+  EXPECT_EQ(simulation.counters().particles, 0u);
+  ASSERT_EQ(simulation.pieces().size(), 2u);
+  EXPECT_EQ(simulation.pieces()[1].points.size(), 20u);
 }
 
 TEST(StickOnAnEdge, BreaksAndComesToRestWithAllItsMass) {

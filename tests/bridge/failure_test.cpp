@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "tests/bridge/models.h"
@@ -80,6 +81,17 @@ TEST(Failure, AtAConcaveShapeIsToldAndTheBodyThawedThereIsGone) {
     expect_world_goes_on(world);
   }
   EXPECT_EQ(world->getNumCollisionObjects(), 2);  // the mesh and the box
+}
+
+TEST(Settings, OutOfRangeAreRefused) {
+  World world;
+  const double nan = std::nan("");
+  for (const CoSimulationSettings& wrong :
+       {CoSimulationSettings{.step_scale = 0.0}, CoSimulationSettings{.step_scale = nan},
+        CoSimulationSettings{.most_substeps = 0}, CoSimulationSettings{.debris_lifetime = -1.0},
+        CoSimulationSettings{.debris_lifetime = nan}}) {
+    EXPECT_THROW(CoSimulation(*world, wrong), InputError);
+  }
 }
 
 }  // namespace

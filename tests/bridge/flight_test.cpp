@@ -109,6 +109,37 @@ TEST_P(Flight, OfAProxyKeepsAngularMomentum) {
   EXPECT_LT((after - before).norm(), by_precision(1e-5, 1e-9) * before.norm());
 }
 
+// A game pushes and turns a proxy as any body of its own: v = F t / m, omega = T t / I.
+TEST_P(Flight, OfAProxyFollowsForcesAndTorquesOfTheGame) {
+  for (bool in_air : {false, true}) {
+    World world(0.0);
+    CoSimulation simulation(*world, settings_for(Representation::kAlwaysRigid));
+    PhysicalModel block = make_block({}, Vec3::Zero());
+    if (in_air) {
+      simulation.set_air(Air{});
+      for (FaceAttributes& face : block.faces) face.normal_drag = 1e-12;
+    }
+    simulation.add(block);
+    btRigidBody& body = *btRigidBody::upcast(world->getCollisionObjectArray()[0]);
+    const Vec3 force(16.0, 0.0, 0.0), torque(0.0, 0.5, 0.0);
+    const int ticks = static_cast<int>(std::lround(0.5 / GetParam()));
+    for (int i = 0; i < ticks; ++i) {
+      body.applyCentralForce(to_bullet(force));
+      body.applyTorque(to_bullet(torque));
+      world.step(GetParam());
+    }
+    const RigidMotion motion = simulation.pieces().at(0).motion;
+    const double rounding = by_precision(1e-5, 1e-9);
+    EXPECT_LT((motion.velocity - force * 0.5 / 8.0).norm(), rounding);
+    EXPECT_LT((motion.centre - force * 0.125 / 8.0).norm(), rounding);
+    EXPECT_LT((motion.angular_momentum - torque * 0.5).norm(), rounding);
+    // A cube: about every axis the same moment.
+    const double angle = 0.5 * torque.y() / motion.inertia(1, 1) * 0.25;
+    const Mat3 turned = Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();
+    EXPECT_LT(angle_between(simulation.placement(0).first, turned), by_precision(1e-4, 1e-9));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Ticks, Flight, testing::Values(kTick, kTick / 4.0));
 
 }  // namespace

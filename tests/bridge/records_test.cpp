@@ -68,6 +68,22 @@ TEST(Pinned, WhatBreaksOffTurnsRigid) {
   }));
 }
 
+// However light it is: a proxy that is about to hit it turns flexible as it would over a floor.
+TEST(Pinned, LatticeIsAWallToWhatFallsOnIt) {
+  World world;
+  CoSimulation simulation(*world);
+  const Block wide{.cells = {6, 1, 6}, .spacing = 0.1, .mass = 0.1, .modulus = 2e7};
+  PhysicalModel shelf = make_block(wide, {0.0, -0.05, 0.0});
+  for (PointAttributes& point : shelf.points) point.pinned = true;
+  simulation.add(shelf);
+  simulation.add(make_block({.strain_at_break = 0.05}, {0.0, 0.5, 0.0}, {0.0, -3.0, 0.0}));
+  world.run(0.2, kTick);
+  const auto& switches = simulation.switches();
+  EXPECT_TRUE(std::any_of(switches.begin(), switches.end(), [](const SwitchRecord& record) {
+    return record.object == 1 && record.cause == "touch";
+  }));
+}
+
 TEST(BreakRecords, NameEdgeCellAndPiece) {
   World world;
   CoSimulation simulation(*world);
@@ -108,6 +124,20 @@ TEST(SplitRecords, LeadFromTheWholeToThePiecesOfNow) {
   EXPECT_EQ(known, now);
 }
 
+// The tick ends after what broke in it.
+TEST(SplitRecords, ComeAfterTheBreaksThatCausedThem) {
+  World world;
+  CoSimulation simulation(*world);
+  simulation.add(bracket(0.003));
+  while (simulation.splits().empty() && simulation.counters().spring_updates < 100000000) {
+    world.step(kTick);
+  }
+  ASSERT_FALSE(simulation.splits().empty());
+  const double split = simulation.splits().front().time;
+  EXPECT_GE(split, simulation.breaks().back().time);
+  EXPECT_LE(split, simulation.breaks().back().time + kTick * (1.0 + 1e-6));
+}
+
 TEST(Surface, IsTheBoundaryOfWhatIsLeft) {
   World world;
   CoSimulation simulation(*world);
@@ -131,7 +161,8 @@ TEST(Debris, IsCountedAndAgesAway) {
     CoSimulationSettings settings;
     settings.debris_lifetime = lifetime;
     CoSimulation simulation(*world, settings);
-    simulation.add(make_block({.strain_at_break = 0.01}, {0.0, 0.4, 0.0}, {0.0, -25.0, 0.0}, {4.0, 3.0, 2.0}));
+    simulation.add(make_block({.strain_at_break = 0.01}, {0.0, 0.4, 0.0}, {0.0, -25.0, 0.0},
+                              {4.0, 3.0, 2.0}));
     world.run(1.0, kTick);
     return simulation.counters();
   };

@@ -33,8 +33,8 @@ std::vector<T> sorted(std::vector<T> v) {
 }
 
 bool same(const BreakingState& a, const BreakingState& b) {
-  return a.edge_broken == b.edge_broken && a.cell_valid == b.cell_valid &&
-         a.face_external == b.face_external;
+  return a.edge_broken == b.edge_broken && a.valid_cells == b.valid_cells &&
+         a.cell_valid == b.cell_valid && a.face_external == b.face_external;
 }
 
 // Deformed at random, so that no symmetry hides a mistake; cells may even be inside out.

@@ -1,24 +1,10 @@
 #include "tests/reference/build.h"
 
-#include <array>
-#include <string>
+#include <stdexcept>
 
-#include "core/modeller/cubic_lattice.h"
+#include "core/analysis/equilibrium.h"
 
 namespace limber::reference {
-
-Vec3 vec3(const Json& numbers) {
-  const auto xyz = numbers.get<std::array<double, 3>>();
-  return {xyz[0], xyz[1], xyz[2]};
-}
-
-Json to_json(const Vec3& vector) { return {vector.x(), vector.y(), vector.z()}; }
-
-Json to_json(const Mat3& matrix) {
-  Json rows = Json::array();
-  for (int row = 0; row < 3; ++row) rows.push_back(to_json(Vec3(matrix.row(row))));
-  return rows;
-}
 
 PhysicalModel network(const std::vector<MassPoint>& points, const std::vector<Bond>& bonds) {
   GeometricModelBuilder builder;
@@ -50,20 +36,6 @@ std::vector<Bond> chain_bonds(std::size_t points, double stiffness, double rest_
   return bonds;
 }
 
-PhysicalModel lattice_model(const Json& params) {
-  CubicLattice lattice;
-  lattice.points = params.at("points").get<std::array<int, 3>>();
-  lattice.spacing = params.at("a");
-  lattice.springs = {params.value("k1", 0.0), params.value("k2", 0.0), params.value("k3", 0.0)};
-  lattice.mass = params.at("m");
-  lattice.damping_per_stiffness = params.value("beta", 0.0);
-  const bool shared = params.value("variant", "uniform") == "shared";
-  lattice.surface = shared ? CubicSurface::kShared : CubicSurface::kUniform;
-  PhysicalModel model = cubic_lattice(lattice);
-  model.object.contact_share = 0.0;
-  return model;
-}
-
 void centre(PhysicalModel& model) {
   Vec3 moment = Vec3::Zero();
   double mass = 0.0;
@@ -78,6 +50,10 @@ void break_either_way(PhysicalModel& model, double threshold) {
   for (EdgeAttributes& edge : model.edges) {
     edge.break_threshold = edge.crush_threshold = threshold;
   }
+}
+
+void settle_or_throw(PhysicalModel& model, const Vec3& gravity) {
+  if (!settle(model, gravity).converged) throw std::runtime_error("no equilibrium found");
 }
 
 }  // namespace limber::reference

@@ -1,17 +1,10 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "core/model/physical_model.h"
 
 namespace limber::reference {
-
-using Json = nlohmann::json;
-
-Vec3 vec3(const Json& numbers);  // [x, y, z]
-Json to_json(const Vec3& vector);
-Json to_json(const Mat3& matrix);  // rows
 
 struct MassPoint {
   Vec3 position;                 // m
@@ -34,14 +27,13 @@ PhysicalModel network(const std::vector<MassPoint>& points, const std::vector<Bo
 std::vector<Bond> chain_bonds(std::size_t points, double stiffness, double rest_length,
                               double damping = 0.0);
 
-// The cubic lattice of "points", "a", "k1", "k2", "k3", "m", "variant" and "beta" = c / k, where
-// given, with its lowest corner at the origin and without contact between the points.
-PhysicalModel lattice_model(const Json& params);
-
 // Moves the model so that its centre of mass is at the origin.
 void centre(PhysicalModel& model);
 
 // Every edge breaks on this difference in length, longer or shorter (m).
 void break_either_way(PhysicalModel& model, double threshold);
+
+// To the equilibrium near where the model is. Throws std::runtime_error where none is found.
+void settle_or_throw(PhysicalModel& model, const Vec3& gravity);
 
 }  // namespace limber::reference

@@ -10,8 +10,6 @@
 namespace limber::reference {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr const char* kSchema =
     "give a file with {\"cases\": [{\"id\": \"GROUP.KIND.NUMBER\", \"params\": {...}, "
     "\"expected\": {NAME: {\"value\": ..., \"how\": ..., \"tol\": {...}}}}]}";
@@ -79,7 +77,7 @@ CaseRecord record_of(const Json& item, const std::string& where) {
     if (!quantity.contains("value")) refuse(where + " " + id + ": " + name, "has no \"value\"");
   }
   try {
-    return {{id, item["params"], inputs_of(item["expected"])}, item["expected"]};
+    return {id, {item["params"], inputs_of(item["expected"])}, item["expected"]};
   } catch (const Json::exception&) {
     refuse(where + " " + id, "its table cannot be read");
   }
@@ -106,7 +104,7 @@ std::vector<CaseRecord> read_cases(const std::filesystem::path& file) {
   for (const Json& item : document["cases"]) {
     const std::string where = fmt::format("{}: case {}", file.string(), cases.size());
     cases.push_back(record_of(item, where));
-    if (!ids.insert(cases.back().input.id).second) refuse(where, "its id was there before");
+    if (!ids.insert(cases.back().id).second) refuse(where, "its id was there before");
   }
   return cases;
 }

@@ -8,8 +8,9 @@
 
 namespace limber::reference {
 
-// One case of a file together with what it expects, which only the judge may see.
+// One case of a file. What it expects only the judge may see.
 struct CaseRecord {
+  std::string id;
   Case input;
   nlohmann::json expected;  // quantity -> {value, how, tol, ...}
 };

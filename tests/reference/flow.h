@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/environment/flow_field.h"
-#include "tests/reference/build.h"
+#include "tests/reference/json_values.h"
 
 namespace limber::reference {
 

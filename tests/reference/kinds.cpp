@@ -5,10 +5,11 @@ namespace limber::reference {
 const Kinds& all_kinds() {
   static const Kinds kinds = [] {
     Kinds all;
-    for (auto* group : {oscillator_kinds, rope_kinds, elasticity_kinds, stability_kinds,
-                        rotation_kinds, wind_kinds, impact_kinds, switching_kinds, topology_kinds,
-                        gluing_kinds, friction_kinds}) {
-      all.merge(group());
+    for (auto* some : {oscillator_kinds, chain_kinds, rope_kinds, elasticity_kinds, statics_kinds,
+                       stability_kinds, rotation_kinds, flow_kinds, wind_kinds, impact_kinds,
+                       wall_impact_kinds, switching_kinds, topology_kinds, gluing_kinds,
+                       friction_kinds, drop_kinds, equipartition_kinds}) {
+      all.merge(some());
     }
     return all;
   }();

@@ -7,31 +7,41 @@
 
 namespace limber::reference {
 
-// One case as the file gives it: parameters, and those "expected" entries that are marked as input
-// (sample times and the like). Expected results are not in here: nobody can peek.
+using Json = nlohmann::json;
+
+// What a kind sees of a case: neither its id nor what it expects. A kind builds models, steps them
+// or asks core/analysis about them, and reads numbers off; it holds no closed form of an answer.
+// Quotients that only define a quantity (a share, a ratio to the continuum) are not answers.
 struct Case {
-  std::string id;
-  nlohmann::json params;
-  nlohmann::json inputs;  // name -> value; "rows": the columns nx, ny, nz of a table of sizes
+  Json params;
+  Json inputs;  // name -> value of what is marked as input (sample times and the like); "rows": the
+                // columns nx, ny, nz of a table of sizes
 };
 
-// Computes the quantities of a case through the library's public interface; throws
-// std::exception when the case cannot be run.
-using Kind = std::function<nlohmann::json(const Case&)>;
+// Computes the quantities of a case; throws std::exception when it cannot be run.
+using Kind = std::function<Json(const Case&)>;
 
-// The kinds of each group by name: the second field of a case's id.
+// By name: the second field of a case's id, which alone decides how a case is run.
 using Kinds = std::map<std::string, Kind>;
-Kinds oscillator_kinds();  // group 1
-Kinds rope_kinds();        // group 2
-Kinds elasticity_kinds();  // group 3
-Kinds stability_kinds();   // group 4
-Kinds rotation_kinds();    // group 5
-Kinds wind_kinds();        // group 6
-Kinds impact_kinds();      // group 7
-Kinds switching_kinds();   // group 9
-Kinds topology_kinds();    // group 10
-Kinds gluing_kinds();      // group 11
-Kinds friction_kinds();    // group 12
+
+// One function a file, kinds_*.cpp. A new file's function goes here and into all_kinds().
+Kinds oscillator_kinds();     // group 1: two points on one spring
+Kinds chain_kinds();          // group 1: chains and strings that vibrate
+Kinds rope_kinds();           // group 2: hanging chains, catenaries, pendulums
+Kinds elasticity_kinds();     // group 3: elastic constants, prisms, modes of a bar
+Kinds statics_kinds();        // group 3: lattices at rest under a load
+Kinds stability_kinds();      // group 4: highest frequencies, limits of the step
+Kinds rotation_kinds();       // group 5: inertia, free rotation
+Kinds flow_kinds();           // group 6: flow fields alone
+Kinds wind_kinds();           // group 6: what the air does to faces
+Kinds impact_kinds();         // group 7: impact and breaking
+Kinds wall_impact_kinds();    // group 7: chains that fly into a wall
+Kinds switching_kinds();      // group 9: between lattice and rigid body
+Kinds topology_kinds();       // group 10: what breaking leaves
+Kinds gluing_kinds();         // group 11: pairs of points
+Kinds friction_kinds();       // group 12: blocks on the ground
+Kinds drop_kinds();           // group 12: a point and a soft ground
+Kinds equipartition_kinds();  // group 12: energies of a vibrating lattice
 
 // All of them.
 const Kinds& all_kinds();

@@ -36,9 +36,9 @@ nlohmann::json run_all(const std::vector<CaseRecord>& cases, std::ostream& err) 
   for (const CaseRecord& record : cases) {
     const Outcome outcome = run_case(record);
     for (const std::string& reason : outcome.left_out) {
-      err << fmt::format("left out {}: {}\n", record.input.id, reason);
+      err << fmt::format("left out {}: {}\n", record.id, reason);
     }
-    if (!outcome.quantities.is_null()) results[record.input.id] = outcome.quantities;
+    if (!outcome.quantities.is_null()) results[record.id] = outcome.quantities;
   }
   return results;
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/analysis/vibration.h"
-#include "core/dynamics/spring_force.h"
 #include "core/dynamics/stable_step.h"
 
 namespace limber::reference {
@@ -31,12 +30,6 @@ double stable_step_of(const PhysicalModel& model, const Environment& environment
     omega = std::hypot(omega, std::sqrt(environment.ground->stiffness / lightest(model)));
   }
   return omega > 0.0 ? stable_step(omega, zeta) : kUnbreakable;
-}
-
-SpringStretch state_of(const Lattice& lattice, std::size_t edge) {
-  const Spring& s = lattice.springs[edge];
-  const PointMotion &a = lattice.motion[s.a], &b = lattice.motion[s.b];
-  return spring_stretch(b.position - a.position, b.velocity - a.velocity, s.rest_length);
 }
 
 }  // namespace
@@ -91,54 +84,6 @@ double Run::moment_of(const std::function<bool()>& happened, double dt) {
     (would_happen(happened, middle) ? after : before) = middle;
   }
   return after;
-}
-
-std::vector<std::int32_t> all_points(const Lattice& lattice) {
-  std::vector<std::int32_t> points(lattice.motion.size());
-  std::iota(points.begin(), points.end(), 0);
-  return points;
-}
-
-std::vector<std::int32_t> free_points(const Lattice& lattice) {
-  std::vector<std::int32_t> points;
-  for (std::int32_t p : all_points(lattice)) {
-    if (lattice.inverse_mass[p] > 0.0) points.push_back(p);
-  }
-  return points;
-}
-
-RigidMotion rigid_motion(const Lattice& lattice) {
-  return limber::rigid_motion(lattice.motion, lattice.mass, all_points(lattice));
-}
-
-double kinetic_energy(const Lattice& lattice) {
-  return limber::kinetic_energy(lattice.motion, lattice.mass, all_points(lattice));
-}
-
-double elastic_energy(const Lattice& lattice) {
-  return limber::elastic_energy(lattice, all_points(lattice));
-}
-
-double energy(const Lattice& lattice) { return kinetic_energy(lattice) + elastic_energy(lattice); }
-
-double energy_about_centre(const Lattice& lattice) {
-  const RigidMotion body = rigid_motion(lattice);
-  return energy(lattice) - 0.5 * body.mass * body.velocity.squaredNorm();
-}
-
-double stretch(const Lattice& lattice, std::size_t edge) { return state_of(lattice, edge).stretch; }
-
-double stretch_rate(const Lattice& lattice, std::size_t edge) {
-  return state_of(lattice, edge).rate;
-}
-
-double largest_stretch(const Lattice& lattice) {
-  double largest = 0.0;
-  for (std::size_t e = 0; e < lattice.springs.size(); ++e) {
-    if (lattice.breaking.edge_broken[e]) continue;
-    largest = std::max(largest, std::abs(stretch(lattice, e)));
-  }
-  return largest;
 }
 
 }  // namespace limber::reference

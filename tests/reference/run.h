@@ -2,10 +2,10 @@
 
 #include <functional>
 #include <memory>
-#include <numeric>
 #include <vector>
 
 #include "core/operators/time_operator.h"
+#include "tests/reference/readings.h"
 
 namespace limber::reference {
 
@@ -43,17 +43,5 @@ class Run {
   double stable_step_ = 0.0;
   std::vector<PointMotion> start_;
 };
-
-// Readings of a lattice.
-std::vector<std::int32_t> all_points(const Lattice& lattice);
-std::vector<std::int32_t> free_points(const Lattice& lattice);  // not pinned
-RigidMotion rigid_motion(const Lattice& lattice);               // of all points
-double kinetic_energy(const Lattice& lattice);                  // J
-double elastic_energy(const Lattice& lattice);                  // J
-double energy(const Lattice& lattice);                          // kinetic and elastic, J
-double energy_about_centre(const Lattice& lattice);             // without that of the centre, J
-double stretch(const Lattice& lattice, std::size_t edge);       // L - L0, m
-double stretch_rate(const Lattice& lattice, std::size_t edge);  // m/s
-double largest_stretch(const Lattice& lattice);  // over the unbroken edges, either way, m
 
 }  // namespace limber::reference

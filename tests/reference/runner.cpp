@@ -8,8 +8,6 @@
 namespace limber::reference {
 namespace {
 
-using Json = nlohmann::json;
-
 bool all_finite(const Json& value) {
   if (value.is_number_float()) return std::isfinite(value.get<double>());
   if (!value.is_structured()) return !value.is_null();
@@ -45,7 +43,7 @@ Outcome checked(Json quantities, const Json& expected) {
 }  // namespace
 
 Outcome run_case(const CaseRecord& record) {
-  const std::string kind = kind_of(record.input.id);
+  const std::string kind = kind_of(record.id);
   const auto found = all_kinds().find(kind);
   if (found == all_kinds().end()) {
     const auto reason = kinds_left_out().find(kind);

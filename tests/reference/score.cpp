@@ -36,6 +36,11 @@ std::optional<Array> array_of(const Json& json) {
   return all;
 }
 
+bool is_list_of_numbers(const Json& json, std::size_t size) {
+  return json.is_array() && json.size() == size &&
+         std::all_of(json.begin(), json.end(), [](const Json& item) { return item.is_number(); });
+}
+
 bool is_text_list(const Json& json) {
   return json.is_array() && !json.empty() && json[0].is_string();
 }
@@ -98,6 +103,31 @@ double error_of(const Json& value, const Json& reference, const Json& tolerance)
   }
   const std::optional<Array> x = array_of(value), r = array_of(reference);
   return x && r ? error_of_arrays(*x, *r, tolerance) : kInfinity;
+}
+
+Json group_sums(const Json& values, const Json& keys) {
+  constexpr double kEqual = 1e-6;
+  Json sums = Json::array();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = values.at(i), key = keys.at(i);
+    const bool is_new = i == 0 || key - keys.at(i - 1).get<double>() > kEqual * std::abs(key);
+    if (is_new) sums.push_back(0.0);
+    sums.back() = sums.back().get<double>() + value;
+  }
+  return sums;
+}
+
+double error_of_quantity(const std::string& name, const Json& found, const Json& expected) {
+  const Json& wanted = expected.at(name);
+  const Json& tolerance = wanted.at("tol");
+  const std::string how = wanted.value("how", "");
+  if (how.find("compare group sums") == std::string::npos) {
+    return error_of(found.at(name), wanted.at("value"), tolerance);
+  }
+  const Json& keys = expected.at("mode_omega").at("value");
+  if (!is_list_of_numbers(found.at(name), keys.size())) return kInfinity;
+  return error_of(group_sums(found.at(name), keys), group_sums(wanted.at("value"), keys),
+                  tolerance);
 }
 
 Grade grade(double error, const Json& tolerance) {

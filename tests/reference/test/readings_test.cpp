@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tests/reference/build.h"
+#include "tests/reference/cubic.h"
 #include "tests/reference/hermite.h"
 #include "tests/reference/mode_families.h"
 #include "tests/reference/oscillation.h"
@@ -105,6 +106,40 @@ TEST(Run, EndsWhereTheSampleIs) {
 
 TEST(Run, KnowsTheStableStep) {
   EXPECT_NEAR(reference::Run(oscillator()).stable_step(), 2.0 / 5.0, 1e-12);
+}
+
+// Three turns backwards, in steps of a tenth of one.
+TEST(AngleCounter, CountsBeyondWholeTurns) {
+  AngleCounter counter;
+  double last = 0.0;
+  for (int i = 1; i <= 30; ++i) {
+    const double angle = -0.2 * std::numbers::pi * i;
+    last = counter.count(std::atan2(std::sin(angle), std::cos(angle)));
+  }
+  EXPECT_NEAR(last, -6.0 * std::numbers::pi, 1e-12);
+}
+
+TEST(Tension, IsThatOfTheSpringAlone) {
+  const Lattice lattice = compiled(oscillator());
+  EXPECT_NEAR(tension(lattice, 0), 5.0, 1e-12);
+  EXPECT_NEAR(elastic_energy(lattice), 0.25, 1e-12);
+}
+
+// Point (2, 0, 3) of 3 x 2 x 4 is where it should be, and so says its index.
+TEST(CubicLattice, NumbersItsPointsAlongXFirst) {
+  const CubicLattice shape = cubic_of({{"points", {3, 2, 4}}, {"a", 0.5}, {"k1", 1.0}});
+  const PointId point = point_of(shape, {2, 0, 3});
+  EXPECT_EQ(cubic_model(shape).geometry.points[point], Vec3(1.0, 0.0, 1.5));
+  EXPECT_EQ(layer_of(shape, point, 0), 2);
+  EXPECT_EQ(layer_of(shape, point, 1), 0);
+  EXPECT_EQ(layer_of(shape, point, 2), 3);
+  EXPECT_EQ(layer_points(shape, 2, 3).size(), 6u);
+}
+
+TEST(CubicLattice, TellsItsEdgesApart) {
+  EXPECT_EQ(family_of(0.1, 0.1), "axial");
+  EXPECT_EQ(family_of(0.1 * std::sqrt(2.0), 0.1), "face");
+  EXPECT_EQ(family_of(0.1 * std::sqrt(3.0), 0.1), "body");
 }
 
 // Two masses between two walls, drawn out to twice the rest length: along x k/m and 3 k/m; across,

@@ -84,6 +84,36 @@ TEST(Score, ColumnsMayBeAbsoluteOrIgnored) {
   EXPECT_DOUBLE_EQ(error_of(Json::array({{10.0, 100.0, 99.0}}), reference, table), 0.0);
 }
 
+TEST(GroupSums, AddWhatHasEqualKeys) {
+  const Json keys = {1.0, 1.0 + 1e-9, 1.0 + 1e-5, 2.0, 2.0, 2.0};
+  EXPECT_EQ(group_sums({1.0, 2.0, 4.0, 8.0, 16.0, 32.0}, keys), Json({3.0, 4.0, 56.0}));
+  EXPECT_EQ(group_sums(Json::array(), Json::array()), Json::array());
+}
+
+Json modes(const char* how) {
+  return {{"mode_omega", {{"value", {5.0, 5.0, 7.0}}}},
+          {"energies", {{"value", {1.0, 3.0, 4.0}}, {"how", how}, {"tol", tolerance("rel")}}}};
+}
+
+TEST(ErrorOfQuantity, ComparesGroupSumsWhereTheCaseSaysSo) {
+  const Json expected = modes("projections (degenerate groups: compare group sums)");
+  EXPECT_EQ(error_of_quantity("energies", {{"energies", {2.0, 2.0, 4.0}}}, expected), 0.0);
+  EXPECT_DOUBLE_EQ(error_of_quantity("energies", {{"energies", {2.0, 3.0, 4.0}}}, expected), 0.25);
+  EXPECT_DOUBLE_EQ(error_of_quantity("energies", {{"energies", {1.0, 3.0, 5.0}}}, expected), 0.25);
+}
+
+TEST(ErrorOfQuantity, ComparesEntriesElsewhere) {
+  const Json found = {{"energies", {2.0, 2.0, 4.0}}};
+  EXPECT_DOUBLE_EQ(error_of_quantity("energies", found, modes("projections")), 0.25);
+}
+
+TEST(ErrorOfQuantity, TakesNoListOfAnotherLength) {
+  const Json expected = modes("compare group sums");
+  for (const Json& wrong : {Json({4.0, 4.0}), Json({1.0, 3.0, "4"}), Json(8.0)}) {
+    EXPECT_EQ(error_of_quantity("energies", {{"energies", wrong}}, expected), kInfinity) << wrong;
+  }
+}
+
 TEST(Score, GradesByTheTwoLimits) {
   EXPECT_EQ(grade(1e-4, tolerance("rel")), Grade::kExcellent);
   EXPECT_EQ(grade(1.1e-4, tolerance("rel")), Grade::kGood);

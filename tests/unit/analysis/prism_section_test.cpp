@@ -98,6 +98,9 @@ TEST(PrismSection, RefusesWhatIsNoPrism) {
   EXPECT_THROW(prism_section(cubic_lattice(bar_of(3, 2)), kSpacing), InputError);
   EXPECT_THROW(prism_section(cubic_lattice(bar_of(3, 5)), 2.5 * kSpacing), InputError);
   EXPECT_THROW(prism_section(PhysicalModel{}, kSpacing), InputError);
+  for (double spacing : {0.0, -kSpacing, std::nan("")}) {
+    EXPECT_THROW(prism_section(cubic_lattice(bar_of(3, 5)), spacing), InputError);
+  }
   PhysicalModel bent = cubic_lattice(bar_of(3, 5));
   for (Vec3& p : bent.geometry.points) p.x() += p.z() * p.z();
   EXPECT_THROW(prism_section(bent, kSpacing), InputError);

@@ -88,6 +88,23 @@ TEST(Lattice, AppendsObjectsWithoutMovingThoseThatWereThere) {
   EXPECT_EQ(both.point_object.back(), 1);
 }
 
+TEST(Lattice, LinksThePointsOfTheSecondObjectAsIfItWereAlone) {
+  const PhysicalModel a = moving_block(Vec3::Zero()), b = test::chain({.points = 4});
+  const Lattice alone = test::lattice_of({b}), both = test::lattice_of({a, b});
+  const std::size_t points = a.points.size(), edges = a.edges.size();
+  ASSERT_EQ(both.point_edges.rows(), points + 4);
+  ASSERT_EQ(both.point_neighbours.size(), both.point_edges.items.size());
+  for (std::size_t p = 0; p < 4; ++p) {
+    const std::int32_t first = alone.point_edges.start[p];
+    const std::int32_t shifted = both.point_edges.start[points + p];
+    ASSERT_EQ(both.point_edges[points + p].size(), alone.point_edges[p].size());
+    for (std::size_t i = 0; i < alone.point_edges[p].size(); ++i) {
+      EXPECT_EQ(both.point_edges.items[shifted + i] - alone.point_edges.items[first + i], edges);
+      EXPECT_EQ(both.point_neighbours[shifted + i] - alone.point_neighbours[first + i], points);
+    }
+  }
+}
+
 // The links of the second object lead to the same result as when it is alone.
 TEST(Lattice, BreaksTheSecondObjectAsIfItWereAlone) {
   const PhysicalModel a = moving_block(Vec3::Zero()), b = moving_block({9.0, 0.0, 0.0});

@@ -95,6 +95,14 @@ TEST(HighestFrequency, OfBigModelsIsBoundedByTheirElements) {
   }
 }
 
+// A chain fills nothing: its factor has the 6 entries of every point and the 9 of every edge, so
+// that what is known beforehand decides no earlier than the analysis does.
+TEST(HighestFrequency, IsProvedUpToTheEntriesOfTheFactor) {
+  const PhysicalModel model = chain(40, 300.0, 0.5);
+  EXPECT_TRUE(highest_frequency(model, 40 * 6 + 39 * 9).verified);
+  EXPECT_FALSE(highest_frequency(model, 40 * 6 + 39 * 9 - 1).verified);
+}
+
 TEST(HighestFrequency, OfLoosePointsIsZero) {
   const FrequencyBound bound = highest_frequency(chain(1, 0.0, 1.0));
   EXPECT_EQ(bound.omega_max, 0.0);

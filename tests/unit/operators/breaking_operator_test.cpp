@@ -95,6 +95,7 @@ TEST(BreakEdges, StateFollowsFromTheAttributesAfterEveryCall) {
   const BreakingState fresh = breaking_state(m, topology);
   EXPECT_EQ(a.broken_edges, b.broken_edges);
   EXPECT_EQ(state.edge_broken, fresh.edge_broken);
+  EXPECT_EQ(state.valid_cells, fresh.valid_cells);
   EXPECT_EQ(state.cell_valid, fresh.cell_valid);
   EXPECT_EQ(state.face_external, fresh.face_external);
   // Two cells of 12 faces each, all of them external now.
@@ -173,10 +174,11 @@ TEST(BreakingTopology, LinksRunBothWays) {
   int shared_edges = 0, twins = 0;
   for (std::size_t e = 0; e < t.edge_cells.rows(); ++e) shared_edges += t.edge_cells[e].size() == 2;
   for (std::size_t f = 0; f < t.face_twin.size(); ++f) {
-    if (t.face_twin[f] < 0) continue;
+    if (t.face_twin[f].face < 0) continue;
     ++twins;
-    EXPECT_EQ(t.face_twin[t.face_twin[f]], static_cast<int>(f));
-    EXPECT_NE(t.face_cell[t.face_twin[f]], t.face_cell[f]);
+    EXPECT_EQ(t.face_twin[t.face_twin[f].face].face, static_cast<int>(f));
+    EXPECT_EQ(t.face_twin[f].cell, t.face_cell[t.face_twin[f].face]);
+    EXPECT_NE(t.face_twin[f].cell, t.face_cell[f]);
   }
   EXPECT_EQ(shared_edges, 4);
   EXPECT_EQ(twins, 4);

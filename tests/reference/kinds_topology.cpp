@@ -11,8 +11,8 @@
 #include "core/modeller/box_lattice.h"
 #include "core/operators/boundary_operator.h"
 #include "core/operators/breaking_operator.h"
-#include "tests/reference/build.h"
 #include "tests/reference/kinds.h"
+#include "tests/reference/readings.h"
 
 namespace limber::reference {
 namespace {
@@ -58,11 +58,8 @@ struct Pieces {
 };
 
 Pieces pieces_of(const PhysicalModel& model) {
-  Lattice lattice;
-  add_object(lattice, model);
-  rebuild_active(lattice);
   Pieces pieces;
-  for (const auto& points : points_of(components(lattice))) {
+  for (const auto& points : points_of(components(compiled(model)))) {
     ++pieces.count;
     pieces.isolated_points += points.size() == 1;
   }

@@ -1,17 +1,15 @@
-// Group 3: elasticity of cubic lattices, through core/analysis. Statics is in statics.cpp.
+// Group 3: elasticity of cubic lattices, through core/analysis. Statics is in kinds_statics.cpp.
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/analysis/periodic_lattice.h"
 #include "core/analysis/prism_section.h"
 #include "core/analysis/vibration.h"
 #include "core/dynamics/spring_force.h"
-#include "tests/reference/grid.h"
+#include "tests/reference/cubic.h"
 #include "tests/reference/kinds.h"
-#include "tests/reference/parts.h"
 #include "tests/reference/run.h"
 
 namespace limber::reference {
@@ -20,22 +18,6 @@ namespace {
 using std::numbers::pi;
 
 // ---- the infinite lattice ----------------------------------------------------------------------
-
-struct Bulk {
-  PeriodicLattice lattice;
-  ElasticityMatrix stiffness;  // Pa
-};
-
-// What surrounds the middle point of a block of 3 x 3 x 3 points.
-Bulk bulk_of(CubicLattice shape) {
-  shape.points = {3, 3, 3};
-  shape.surface = CubicSurface::kUniform;
-  const PhysicalModel block = cubic_lattice(shape);
-  Bulk bulk;
-  bulk.lattice = lattice_around(block, point_of(shape, 1, 1, 1), std::pow(shape.spacing, 3));
-  bulk.stiffness = elasticity(bulk.lattice);
-  return bulk;
-}
 
 // A bar of the material is pulled along x by a unit strain and free to contract.
 struct Pulled {
@@ -56,10 +38,8 @@ Vec3 layer_springs(const Bulk& bulk, double spacing) {
 }
 
 Json bulk_constants(const Case& c) {
-  const double a = c.params.at("a");
-  CubicLattice shape;
-  shape.spacing = a;
-  shape.springs = {c.params.at("k1"), c.params.at("k2"), c.params.at("k3")};
+  const CubicLattice shape = cubic_of(c.params);
+  const double a = shape.spacing;
   const Bulk bulk = bulk_of(shape);
   const ElasticityMatrix& C = bulk.stiffness;
   const Pulled pulled = pulled_along_x(C);
@@ -85,8 +65,7 @@ Json energy_by_family(const Lattice& lattice, const CubicLattice& shape) {
   if (shape.springs.face_diagonal > 0.0) energy["face"] = 0.0;
   if (shape.springs.body_diagonal > 0.0) energy["body"] = 0.0;
   for (const Spring& s : lattice.springs) {
-    const double squares = std::round(std::pow(s.rest_length / shape.spacing, 2));
-    Json& sum = energy[squares == 1.0 ? "axial" : squares == 2.0 ? "face" : "body"];
+    Json& sum = energy[family_of(s.rest_length, shape.spacing)];
     const Vec3 d = lattice.motion[s.b].position - lattice.motion[s.a].position;
     sum = sum.get<double>() + spring_energy(s.stiffness, d.norm() - s.rest_length);
   }
@@ -109,9 +88,8 @@ double largest_inside(const std::vector<Vec3>& force, const CubicLattice& shape)
 Json affine_energy(const Case& c) {
   const CubicLattice shape = cubic_of(c.params);
   const Mat3 F = mat3(c.params.at("F"));
-  PhysicalModel model = cubic_lattice(shape);
+  PhysicalModel model = cubic_model(shape);
   for (Vec3& x : model.geometry.points) x = F * x;
-  model.object.contact_share = 0.0;
   Run run(model);
   run.step(0.0);  // sums the forces and moves nothing
   const Lattice& lattice = run.lattice();
@@ -135,8 +113,9 @@ Json affine_energy(const Case& c) {
 
 // ---- prisms ------------------------------------------------------------------------------------
 
-// Saint-Venant's torsion constant of a unit square, for the ratio to the continuum alone
-// (Timoshenko and Goodier, Theory of Elasticity, section 109).
+// The continuum's, over G: no answer, but what GJ_over_continuum is defined by, as E A and E I are
+// for its neighbours. Saint-Venant's series (Timoshenko and Goodier, Theory of Elasticity, section
+// 109).
 double square_torsion_constant() {
   double sum = 0.0;
   for (int n = 1; n < 40; n += 2) sum += std::tanh(n * pi / 2.0) / std::pow(n, 5);
@@ -164,9 +143,7 @@ Json prism_row(CubicLattice shape, int n) {
 }
 
 Json prism_surface_effects(const Case& c) {
-  Json params = c.params;
-  params["points"] = {2, 2, 2};
-  const CubicLattice shape = cubic_of(params);
+  const CubicLattice shape = cubic_of(c.params);
   Json rows = Json::array();
   for (int n : c.params.at("n_points")) rows.push_back(prism_row(shape, n));
   return {{"columns",
@@ -202,13 +179,12 @@ Json free_bar_modes(const Case& c) {
   }
   const double length = (shape.points[0] - 1) * shape.spacing;
   const double longitudinal = longitudinal_frequency(bar, modes, length);
-  const double density = shape.mass / std::pow(shape.spacing, 3);
-  const ElasticityMatrix C = bulk_of(shape).stiffness;
+  const Bulk bulk = bulk_of(shape);
   return {{"n_zero_modes", zero_modes},
           {"lowest_12_nonzero_omega", lowest},
           {"omega_max", std::sqrt(modes.omega_squared.maxCoeff())},
-          {"cL_bulk", std::sqrt(C(0, 0) / density)},
-          {"cT_bulk", std::sqrt(C(3, 3) / density)},
+          {"cL_bulk", wave_speed(bulk.stiffness(0, 0), bulk.density)},
+          {"cT_bulk", wave_speed(bulk.stiffness(3, 3), bulk.density)},
           {"omega_longitudinal_1", longitudinal},
           {"bar_speed_from_mode", longitudinal * length / pi}};
 }
@@ -216,12 +192,10 @@ Json free_bar_modes(const Case& c) {
 }  // namespace
 
 Kinds elasticity_kinds() {
-  Kinds kinds = {{"bulk_constants", bulk_constants},
-                 {"affine_energy", affine_energy},
-                 {"prism_surface_effects", prism_surface_effects},
-                 {"free_bar_modes", free_bar_modes}};
-  kinds.merge(statics_kinds());
-  return kinds;
+  return {{"bulk_constants", bulk_constants},
+          {"affine_energy", affine_energy},
+          {"prism_surface_effects", prism_surface_effects},
+          {"free_bar_modes", free_bar_modes}};
 }
 
 }  // namespace limber::reference

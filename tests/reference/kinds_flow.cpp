@@ -8,8 +8,7 @@
 
 #include "core/environment/tracer.h"
 #include "tests/reference/flow.h"
-#include "tests/reference/grid.h"
-#include "tests/reference/parts.h"
+#include "tests/reference/kinds.h"
 
 namespace limber::reference {
 namespace {
@@ -197,7 +196,7 @@ double outflow(const HalfBody& body, double radius) {
 
 Json rankine_half_body(const Case& c) {
   const HalfBody body = half_body_of(c.params.at("primitives"));
-  const double far = 1e12;  // m: the source is not felt there
+  const double far = 1e16;  // m: the source is not felt there, not even in the last digit
   const double nearest = 1e-5;
   const double ahead =
       root_between(nearest, far, [&](double s) { return body.velocity(-s, 0.0).dot(body.along); });

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "core/analysis/vibration.h"
-#include "tests/reference/build.h"
-#include "tests/reference/parts.h"
+#include "tests/reference/cubic.h"
+#include "tests/reference/kinds.h"
 #include "tests/reference/run.h"
 
 namespace limber::reference {
@@ -39,7 +39,7 @@ Eigen::VectorXd modal_energies(const PhysicalModel& model, const VibrationModes&
 }
 
 Json virial(const Case& c) {
-  PhysicalModel model = lattice_model(c.params);
+  PhysicalModel model = cubic_model(c.params);
   for (PointId p : ids_of(model.points)) {
     model.points[p].velocity = vec3(c.params.at("velocities").at(p.index()));
   }

@@ -5,6 +5,7 @@
 #include "core/analysis/vibration.h"
 #include "core/dynamics/free_rotation.h"
 #include "tests/reference/build.h"
+#include "tests/reference/cubic.h"
 #include "tests/reference/kinds.h"
 #include "tests/reference/run.h"
 
@@ -16,8 +17,7 @@ using std::numbers::pi;
 Json inertia(const Case& c) {
   Json params = c.params;
   params["k1"] = params.value("k1", 1.0);  // does not matter
-  const Run run(lattice_model(params));
-  const RigidMotion body = rigid_motion(run.lattice());
+  const RigidMotion body = rigid_motion(compiled(cubic_model(params)));
   Json found;
   found["total_mass"] = body.mass;
   found["com"] = to_json(body.centre);
@@ -114,20 +114,19 @@ void add_sample(const Lattice& lattice, const std::vector<std::int32_t>& corners
   Json positions = Json::array();
   for (std::int32_t p : corners) positions.push_back(to_json(lattice.motion[p].position));
   found["corner_positions"].push_back(positions);
-  found["best_fit_rotation"].push_back(to_json(
-      best_rotation(lattice.motion, lattice.authored_position, lattice.mass, all_points(lattice))));
+  found["best_fit_rotation"].push_back(to_json(rotation(lattice)));
   found["com"].push_back(to_json(rigid_motion(lattice).centre));
   found["elastic_energy"].push_back(elastic_energy(lattice));
 }
 
 Json flexible_rotation(const Case& c) {
   constexpr double kStepShare = 0.04;
-  PhysicalModel model = lattice_model(c.params);
+  PhysicalModel model = cubic_model(c.params);
   centre(model);
   Json found;
   found["omega_max"] = exact_highest_frequency(model);
   set_in_motion(model, vec3(c.params.at("v0")), vec3(c.params.at("omega0")));
-  const Vec3 gravity(0.0, 0.0, -c.params.at("g").get<double>());
+  const Vec3 gravity = gravity_of(c.params);
   Run run(model, {.gravity = gravity});
   found["momentum"] = to_json(rigid_motion(run.lattice()).momentum());
   for (double t : c.inputs.at("t")) {
@@ -144,7 +143,7 @@ Json flexible_rotation(const Case& c) {
 // ---- steady spin
 
 PhysicalModel spinning_model(const Json& p) {
-  PhysicalModel model = lattice_model(p);
+  PhysicalModel model = cubic_model(p);
   const Vec3 omega(0.0, 0.0, p.at("omega"));
   for (PointId i : ids_of(model.points)) {
     model.geometry.points[i] = vec3(p.at("positions").at(i.index()));

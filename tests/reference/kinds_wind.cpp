@@ -1,18 +1,20 @@
-// Group 6: what the air does to faces. The flow alone is in flow_cases.cpp.
+// Group 6: what the air does to faces. The flow alone is in kinds_flow.cpp.
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "tests/reference/build.h"
 #include "tests/reference/flow.h"
-#include "tests/reference/grid.h"
-#include "tests/reference/parts.h"
+#include "tests/reference/kinds.h"
 #include "tests/reference/run.h"
 
 namespace limber::reference {
 namespace {
 
 // ---- faces in the air --------------------------------------------------------------------------
+
+constexpr double kDensity = 1.225;  // kg/m^3, of air where a case does not say
 
 using Triangles = std::vector<std::array<int, 3>>;
 
@@ -151,18 +153,17 @@ struct Fall {
 };
 
 double rotation_angle(const Lattice& lattice) {
-  const Mat3 R =
-      best_rotation(lattice.motion, lattice.authored_position, lattice.mass, all_points(lattice));
-  const Eigen::Quaterniond q(R);
+  const Eigen::Quaterniond q(rotation(lattice));
   return 2.0 * std::atan2(q.vec().norm(), std::abs(q.w()));
 }
 
-double fall_step(const Run& run) { return std::min(4e-3, 0.2 * run.stable_step()); }
+// The air slows a light plate within some 30 ms.
+double fall_step(const Run& run) { return std::min(1e-3, 0.2 * run.stable_step()); }
 
 Run plate_in_air(const Case& c, const FaceAttributes& drag) {
-  const Vec3 gravity(0.0, 0.0, -c.params.at("g").get<double>());
-  const double density = c.params.value("rho", 1.225);
-  return Run(plate(c.params, drag), in_air(density, uniform_wind(c.params.at("wind")), gravity));
+  const double density = c.params.value("rho", kDensity);
+  return Run(plate(c.params, drag),
+             in_air(density, uniform_wind(c.params.at("wind")), gravity_of(c.params)));
 }
 
 // The velocity that a plate keeps: each second a flat one goes on with what the last one reached.
@@ -170,7 +171,7 @@ Vec3 terminal_velocity(const Case& c, const FaceAttributes& drag, Vec3 velocity)
   for (int seconds = 0; seconds < 2000; ++seconds) {
     Run run = plate_in_air(c, drag);
     for (PointMotion& point : run.lattice().motion) point.velocity = velocity;
-    run.advance_to(1.0, 4.0 * fall_step(run));
+    run.advance_to(1.0, 8.0 * fall_step(run));
     const Vec3 before = velocity;
     velocity = rigid_motion(run.lattice()).velocity;
     if ((velocity - before).norm() <= 1e-13 * velocity.norm()) break;
@@ -228,27 +229,23 @@ PhysicalModel leaf_model(const Json& params) {
 }
 
 Json leaf(const Case& c) {
-  const Vec3 gravity(0.0, 0.0, -c.params.at("g").get<double>());
+  const FlowField wind = flow_of(c.params.at("primitives"));
   Run run(leaf_model(c.params),
-          in_air(c.params.value("rho", 1.225), flow_of(c.params.at("primitives")), gravity));
+          in_air(c.params.value("rho", kDensity), wind, gravity_of(c.params)));
   const double dt = 0.05 * run.stable_step();
-  Json positions = Json::array(), com = Json::array();
+  Json all = Json::array(), com = Json::array();
   for (double time : c.inputs.at("t")) {
     run.advance_to(time, dt);
-    std::vector<Vec3> x;
-    for (const PointMotion& point : run.lattice().motion) x.push_back(point.position);
-    positions.push_back(to_json(x));
+    all.push_back(to_json(positions(run.lattice())));
     com.push_back(to_json(rigid_motion(run.lattice()).centre));
   }
-  return {{"positions", positions}, {"com", com}};
+  return {{"positions", all}, {"com", com}};
 }
 
 }  // namespace
 
 Kinds wind_kinds() {
-  Kinds kinds = {{"triangle_force", triangle_force}, {"plate_fall", plate_fall}, {"leaf", leaf}};
-  kinds.merge(flow_kinds());
-  return kinds;
+  return {{"triangle_force", triangle_force}, {"plate_fall", plate_fall}, {"leaf", leaf}};
 }
 
 }  // namespace limber::reference

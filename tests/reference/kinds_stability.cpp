@@ -1,12 +1,11 @@
 // Group 4: highest frequencies, limits of the time step, frequencies of the integrators.
-#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <numbers>
 
 #include "core/analysis/periodic_lattice.h"
 #include "core/analysis/vibration.h"
 #include "core/dynamics/stable_step.h"
 #include "tests/reference/build.h"
+#include "tests/reference/cubic.h"
 #include "tests/reference/kinds.h"
 #include "tests/reference/oscillation.h"
 #include "tests/reference/run.h"
@@ -14,14 +13,12 @@
 namespace limber::reference {
 namespace {
 
-using std::numbers::pi;
-
 // ---- highest frequencies of lattices and of the infinite one
 
 Json frequency_row(const Case& c, const Json& points) {
   Json params = c.params;
   params["points"] = points;
-  const PhysicalModel model = lattice_model(params);
+  const PhysicalModel model = cubic_model(params);
   const double omega = exact_highest_frequency(model);
   const FrequencyBounds bounds = frequency_bounds(model);
   Json row = points;
@@ -31,65 +28,6 @@ Json frequency_row(const Case& c, const Json& points) {
     row.push_back(number);
   }
   return row;
-}
-
-PeriodicLattice infinite_lattice(const Json& p) {
-  const double a = p.at("a");
-  PeriodicLattice lattice;
-  lattice.cell_volume = a * a * a;
-  const double stiffness[] = {0.0, p.at("k1"), p.at("k2"), p.at("k3")};
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) {
-        const double k = stiffness[std::abs(x) + std::abs(y) + std::abs(z)];
-        const bool once = x > 0 || (x == 0 && (y > 0 || (y == 0 && z > 0)));
-        if (once && k > 0.0) lattice.bonds.push_back({a * Vec3(x, y, z), k});
-      }
-  return lattice;
-}
-
-double highest_at(const PeriodicLattice& lattice, double mass, const Vec3& wave_vector) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(dynamical_matrix(lattice, wave_vector));
-  return std::sqrt(std::max(0.0, solver.eigenvalues()[2]) / mass);
-}
-
-struct Wave {
-  Vec3 phase = Vec3::Zero();  // q a, rad
-  double omega = 0.0;
-};
-
-// Tries the neighbours at `distance` along the axes.
-bool improve(Wave& wave, double distance, const std::function<double(const Vec3&)>& omega_at) {
-  const Wave before = wave;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (double side : {-distance, distance}) {
-      const Vec3 phase = before.phase + side * Vec3::Unit(axis);
-      const double omega = omega_at(phase);
-      if (omega > wave.omega) wave = {phase, omega};
-    }
-  }
-  return wave.omega > before.omega;
-}
-
-// Over an eighth of the Brillouin zone, which the lattice's mirrors make the whole: the best point
-// of a grid, then a search around it. omega is flat at its maximum, so that 1e-6 rad is enough.
-Wave highest_wave(const Json& p) {
-  constexpr int kGrid = 12;
-  const PeriodicLattice lattice = infinite_lattice(p);
-  const double a = p.at("a"), mass = p.at("m");
-  const auto omega_at = [&](const Vec3& phase) { return highest_at(lattice, mass, phase / a); };
-  Wave best;
-  for (int x = 0; x <= kGrid; ++x)
-    for (int y = 0; y <= kGrid; ++y)
-      for (int z = 0; z <= kGrid; ++z) {
-        const Vec3 phase = pi / kGrid * Vec3(x, y, z);
-        const double omega = omega_at(phase);
-        if (omega > best.omega) best = {phase, omega};
-      }
-  for (double distance = pi / kGrid; distance > 1e-6;) {
-    if (!improve(best, distance, omega_at)) distance *= 0.5;
-  }
-  return best;
 }
 
 Json omega_max(const Case& c) {
@@ -107,9 +45,10 @@ Json omega_max(const Case& c) {
   for (const Json& points : c.inputs.at("rows")) {
     found["rows"].push_back(frequency_row(c, points));
   }
-  const Wave wave = highest_wave(c.params);
+  const CubicLattice shape = cubic_of(c.params);
+  const PlaneWave wave = highest_bulk_frequency(bulk_of(shape).lattice, shape.mass, shape.spacing);
   found["bulk_omega_max"] = wave.omega;
-  found["bulk_argmax_qa"] = to_json(wave.phase);
+  found["bulk_argmax_qa"] = to_json(Vec3(shape.spacing * wave.wave_vector));
   return found;
 }
 
@@ -176,7 +115,7 @@ double growth_per_step(const PhysicalModel& model, const VibrationModes& modes, 
 }
 
 Json stability_limit(const Case& c) {
-  const PhysicalModel model = lattice_model(c.params);
+  const PhysicalModel model = cubic_model(c.params);
   const VibrationModes modes = vibration_modes(model);
   const double omega = exact_highest_frequency(model);
   const double zeta = damping_ratio(model, modes.shapes.rightCols<1>(), omega);

@@ -1,18 +1,17 @@
 // Group 2: hanging chains, catenaries and pendulums.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/analysis/equilibrium.h"
-#include "core/dynamics/spring_force.h"
 #include "tests/reference/build.h"
+#include "tests/reference/json_values.h"
 #include "tests/reference/kinds.h"
 #include "tests/reference/mode_families.h"
 #include "tests/reference/run.h"
 
 namespace limber::reference {
 namespace {
-
-Vec3 gravity_of(const Json& p) { return {0.0, 0.0, -p.at("g").get<double>()}; }
 
 // Point 0 pinned at the origin, the others below it at rest length.
 PhysicalModel hanging_model(const Json& p) {
@@ -24,16 +23,9 @@ PhysicalModel hanging_model(const Json& p) {
   return network(points, chain_bonds(points.size(), p.at("k"), spacing));
 }
 
-void settle_or_fail(PhysicalModel& model, const Vec3& gravity) {
-  const Equilibrium found = settle(model, gravity);
-  if (!found.converged) throw std::runtime_error("the model did not settle");
-}
-
-// What the pinned point p bears of the springs.
-Vec3 load_on_pin(const PhysicalModel& model, std::int32_t p, const Vec3& gravity) {
-  Run run(model, {.gravity = gravity}, Integrator::kSymplecticEuler);
-  run.step(1e-6 * run.stable_step());
-  return run.lattice().force[p] - run.lattice().mass[p] * gravity;
+// What holds point 0 against the springs alone: the support has no weight.
+Vec3 load_on_pin(const PhysicalModel& model) {
+  return support_forces(model, Vec3::Zero())[PointId(std::size_t{0})];
 }
 
 std::vector<double> coordinates(const Lattice& lattice, int axis) {
@@ -51,15 +43,15 @@ std::vector<double> stretches(const Lattice& lattice) {
 Json hanging_chain(const Case& c) {
   PhysicalModel model = hanging_model(c.params);
   const Vec3 gravity = gravity_of(c.params);
-  settle_or_fail(model, gravity);
-  const Run run(model);
-  const std::vector<double> elongation = stretches(run.lattice());
+  settle_or_throw(model, gravity);
+  const Lattice lattice = compiled(model);
+  const std::vector<double> elongation = stretches(lattice);
   Json found;
-  found["z"] = coordinates(run.lattice(), 2);
+  found["z"] = coordinates(lattice, 2);
   found["elongation"] = elongation;
   found["total_extension"] = std::accumulate(elongation.begin(), elongation.end(), 0.0);
-  found["support_force"] = load_on_pin(model, 0, gravity).norm();
-  found["elastic_energy"] = elastic_energy(run.lattice());
+  found["support_force"] = load_on_pin(model).norm();
+  found["elastic_energy"] = elastic_energy(lattice);
   return found;
 }
 
@@ -83,11 +75,9 @@ PhysicalModel rope_model(const Json& p) {
 void add_tensions(const Lattice& lattice, Json& found) {
   double least = kUnbreakable, most = 0.0, strain = 0.0;
   for (std::size_t e = 0; e < lattice.springs.size(); ++e) {
-    const Spring& s = lattice.springs[e];
-    const double tension = spring_tension(s.stiffness, 0.0, stretch(lattice, e), 0.0);
-    least = std::min(least, tension);
-    most = std::max(most, tension);
-    strain = std::max(strain, stretch(lattice, e) / s.rest_length);
+    least = std::min(least, tension(lattice, e));
+    most = std::max(most, tension(lattice, e));
+    strain = std::max(strain, stretch(lattice, e) / lattice.springs[e].rest_length);
   }
   found["T_min"] = least;
   found["T_max"] = most;
@@ -97,16 +87,16 @@ void add_tensions(const Lattice& lattice, Json& found) {
 Json catenary(const Case& c) {
   PhysicalModel model = rope_model(c.params);
   const Vec3 gravity = gravity_of(c.params);
-  settle_or_fail(model, gravity);
-  const Run run(model);
-  const std::vector<double> z = coordinates(run.lattice(), 2);
+  settle_or_throw(model, gravity);
+  const Lattice lattice = compiled(model);
+  const std::vector<double> z = coordinates(lattice, 2);
   Json found;
-  found["x"] = coordinates(run.lattice(), 0);
+  found["x"] = coordinates(lattice, 0);
   found["z"] = z;
   found["sag"] = -*std::min_element(z.begin(), z.end());
-  found["H"] = std::abs(load_on_pin(model, 0, gravity).x());
-  found["elastic_energy"] = elastic_energy(run.lattice());
-  add_tensions(run.lattice(), found);
+  found["H"] = std::abs(load_on_pin(model).x());
+  found["elastic_energy"] = elastic_energy(lattice);
+  add_tensions(lattice, found);
   return found;
 }
 
@@ -168,7 +158,7 @@ Json pendulum(const Case& c) {
 
 Json hanging_chain_modes(const Case& c) {
   PhysicalModel model = hanging_model(c.params);
-  settle_or_fail(model, gravity_of(c.params));
+  settle_or_throw(model, gravity_of(c.params));
   const ModeFamilies modes = mode_families(model, Vec3::UnitZ());
   Json found;
   found["omega_transverse"] = modes.across;

@@ -5,7 +5,8 @@
 #include <functional>
 
 #include "tests/reference/build.h"
-#include "tests/reference/parts.h"
+#include "tests/reference/json_values.h"
+#include "tests/reference/kinds.h"
 #include "tests/reference/run.h"
 
 namespace limber::reference {
@@ -21,9 +22,8 @@ Ground soft_ground(const Json& params, bool adhesive) {
 }
 
 Run point_over(const Ground& ground, const Json& params, double height) {
-  const Vec3 gravity(0.0, 0.0, -params.at("g").get<double>());
   return Run(network({{height * Vec3::UnitZ(), params.at("m")}}, {}),
-             {.gravity = gravity, .air = {}, .ground = ground});
+             {.gravity = gravity_of(params), .air = {}, .ground = ground});
 }
 
 double height_of(const Run& run) { return run.lattice().motion[0].position.z(); }

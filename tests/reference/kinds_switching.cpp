@@ -5,29 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/reference/grid.h"
+#include "tests/reference/build.h"
+#include "tests/reference/cubic.h"
 #include "tests/reference/kinds.h"
-#include "tests/reference/run.h"
+#include "tests/reference/readings.h"
 
 namespace limber::reference {
 namespace {
 
 // The undeformed lattice about its centre of mass, with the masses of the case.
 PhysicalModel reference_lattice(const Json& params) {
-  PhysicalModel model = cubic_lattice(cubic_of(params));
-  model.object.contact_share = 0.0;
+  PhysicalModel model = cubic_model(params);
   if (params.contains("masses") && !params["masses"].is_null()) {
     for (PointId p : ids_of(model.points)) model.points[p].mass = params["masses"].at(p.index());
   }
   centre(model);
   return model;
-}
-
-Lattice compiled(PhysicalModel model) {
-  Lattice lattice;
-  add_object(lattice, std::move(model));
-  rebuild_active(lattice);
-  return lattice;
 }
 
 Vec3 angular_momentum_about_origin(const RigidMotion& body) {
@@ -45,18 +38,6 @@ Eigen::Quaterniond quaternion(const Json& wxyz) {
 }
 
 // ---- rigid to flexible -------------------------------------------------------------------------
-
-std::vector<Vec3> positions_of(const Lattice& lattice) {
-  std::vector<Vec3> x;
-  for (const PointMotion& point : lattice.motion) x.push_back(point.position);
-  return x;
-}
-
-std::vector<Vec3> velocities_of(const Lattice& lattice) {
-  std::vector<Vec3> v;
-  for (const PointMotion& point : lattice.motion) v.push_back(point.velocity);
-  return v;
-}
 
 // Absolute where nothing is wanted.
 double relative_error(const Vec3& found, const Vec3& wanted) {
@@ -82,8 +63,8 @@ Json rigid_to_flexible(const Case& c) {
   set_in_motion(model, vec3(c.params.at("v")), vec3(c.params.at("omega")));
   const Lattice lattice = compiled(std::move(model));
   const RigidMotion body = rigid_motion(lattice);
-  return {{"positions", to_json(positions_of(lattice))},
-          {"velocities", to_json(velocities_of(lattice))},
+  return {{"positions", to_json(positions(lattice))},
+          {"velocities", to_json(velocities(lattice))},
           {"P", to_json(body.momentum())},
           {"L_origin", to_json(angular_momentum_about_origin(body))},
           {"kinetic_energy", reference::kinetic_energy(lattice)},
