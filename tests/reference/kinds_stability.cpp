@@ -58,14 +58,15 @@ Vec3 of_point(const Eigen::VectorXd& shape, std::int32_t p) { return shape.segme
 
 // Work of the forces at these velocities on the shape, per kg^1/2: what the time operator sums up.
 double generalised_force(const PhysicalModel& model, const Eigen::VectorXd& shape, double speed) {
-  Run run(model, {}, Integrator::kSymplecticEuler);
+  Run run(model);
   Lattice& lattice = run.lattice();
-  for (std::int32_t p : all_points(lattice))
+  for (std::int32_t p : all_points(lattice)) {
     lattice.motion[p].velocity = speed * of_point(shape, p);
-  run.step(1e-9 * run.stable_step());
-  double force = 0.0;
-  for (std::int32_t p : all_points(lattice)) force += lattice.force[p].dot(of_point(shape, p));
-  return force;
+  }
+  const std::vector<Vec3> forces = run.forces();
+  double sum = 0.0;
+  for (std::int32_t p : all_points(lattice)) sum += forces[p].dot(of_point(shape, p));
+  return sum;
 }
 
 // Of a mode: force against its velocity, over twice its frequency.

@@ -57,8 +57,7 @@ Json triangle_force(const Case& c) {
   const FlowField wind = uniform_wind(c.params.at("wind"));
   const auto force = [&](const FaceAttributes& drag) {
     Run run(leaf_of(points, {}, {{0, 1, 2}}, drag), in_air(c.params.at("rho"), wind));
-    run.step(0.0);  // sums the forces and moves nothing
-    const auto& f = run.lattice().force;
+    const std::vector<Vec3> f = run.forces();
     return Vec3(f[0] + f[1] + f[2]);
   };
   const Vec3 &a = points[0].position, &b = points[1].position, &d = points[2].position;

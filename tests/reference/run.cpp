@@ -45,6 +45,15 @@ Run::Run(PhysicalModel model, Environment environment, Integrator integrator)
 
 StepReport Run::step(double dt) { return operator_->advance(1, dt, environment_); }
 
+// Those that a step begins with, so short a one that no digit changes but that of a point at rest.
+std::vector<Vec3> Run::forces() {
+  constexpr double kNoTime = 1e-100;  // s
+  start_ = lattice_.motion;
+  TimeOperator(lattice_, Integrator::kSymplecticEuler).advance(1, kNoTime, environment_);
+  lattice_.motion = start_;
+  return lattice_.force;
+}
+
 void Run::advance_to(double time, double largest_step, const std::function<void()>& after_step) {
   const double start = operator_->time();
   const auto steps = static_cast<int>(std::ceil((time - start) / largest_step - 1e-9));

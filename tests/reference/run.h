@@ -26,6 +26,9 @@ class Run {
 
   StepReport step(double dt);
 
+  // On all points as they are and move, N; moves nothing.
+  std::vector<Vec3> forces();
+
   // Steps of at most `largest_step` that end at `time` exactly; `after_step` looks at each.
   void advance_to(double time, double largest_step, const std::function<void()>& after_step = {});
 

@@ -104,6 +104,13 @@ TEST(Run, EndsWhereTheSampleIs) {
   EXPECT_NEAR(energy(run.lattice()), 0.25, 1e-8);
 }
 
+TEST(Run, KnowsTheForcesAndMovesNothing) {
+  reference::Run run(oscillator());
+  EXPECT_NEAR(run.forces()[1].x(), -5.0, 1e-12);
+  EXPECT_EQ(run.lattice().motion[1].velocity, Vec3::Zero());
+  EXPECT_EQ(run.time(), 0.0);
+}
+
 TEST(Run, KnowsTheStableStep) {
   EXPECT_NEAR(reference::Run(oscillator()).stable_step(), 2.0 / 5.0, 1e-12);
 }
