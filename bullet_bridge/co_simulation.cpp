@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bullet_bridge/co_simulation_impl.h"
+#include "core/operators/skin_surface.h"
 #include "core/storage/state_hash.h"
 
 namespace limber::bullet {
@@ -104,7 +105,9 @@ PhysicalModel CoSimulation::model(std::size_t object) const {
 
 SurfaceModel CoSimulation::surface(std::size_t object) const {
   const Lattice& lattice = impl_->lattice_;
-  return impl_->boundary_.surface(model(object), lattice.topology, lattice.objects[object].faces);
+  const PhysicalModel now = model(object);
+  return skin_surface(
+      now, impl_->boundary_.surface(now, lattice.topology, lattice.objects[object].faces));
 }
 
 const std::optional<Diagnostic>& CoSimulation::failure() const { return impl_->failure_; }

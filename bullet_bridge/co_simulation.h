@@ -127,8 +127,8 @@ class CoSimulation {
   // The object as it is now: positions, velocities, breaks. Can be edited, glued and added again.
   PhysicalModel model(std::size_t object) const;
 
-  // What is seen of it: boundary() of model(). Which faces these are is kept up to date at the cost
-  // of what breaks; putting them together costs the object.
+  // What is seen of it: skin_surface() of model(). Which faces these are is kept up to date at the
+  // cost of what breaks; putting them together costs the object.
   SurfaceModel surface(std::size_t object) const;
 
   // Why the simulation of the lattices stopped, if it did; ask after every stepSimulation().

@@ -90,7 +90,8 @@ ProxyFrame proxy_frame(const RigidMotion& motion) {
   frame.mass = motion.mass;
   frame.centre = motion.centre;
   frame.orientation = Eigen::Quaterniond(axes).normalized();
-  // Points all in one place have no moment at all: those of a ball of a tenth of a millimetre.
+  // Points all in one place have no moment at all: they count as a tenth of a millimetre from their
+  // centre, of which the share below leaves a micrometre.
   const double largest = std::max(principal.eigenvalues()[2], 1e-8 * motion.mass);
   frame.moments = principal.eigenvalues().cwiseMax(kSmallestMomentShare * largest);
   frame.regularised = frame.moments != principal.eigenvalues();

@@ -4,6 +4,10 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 pkg_check_modules(BULLET_F32 REQUIRED IMPORTED_TARGET bullet)
 pkg_check_modules(BULLET_F64 REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+# Debian's name for the build without MPI first: plain `hdf5` may be one with it.
+pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)
+# Its CMake package in Debian 12 wants Draco beside it; pkg-config does not.
+pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -74,8 +74,7 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
 
 }  // namespace
 
-double largest_eigenvalue(const SparseMatrix& lower) {
-  constexpr double kTolerance = 2e-10;
+double largest_eigenvalue(const SparseMatrix& lower, double error) {
   constexpr std::size_t kMostSteps = 3000;
   const double magnitude = magnitude_bound(lower);
   if (magnitude == 0.0) return 0.0;
@@ -86,7 +85,7 @@ double largest_eigenvalue(const SparseMatrix& lower) {
       if (lanczos.exhausted(magnitude)) return lanczos.largest().value;
     }
     const Lanczos::Estimate largest = lanczos.largest();
-    if (largest.error <= kTolerance * magnitude) return largest.value;
+    if (largest.error <= error * magnitude) return largest.value;
   }
   fail_to_converge("the highest frequency");
 }

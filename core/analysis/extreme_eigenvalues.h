@@ -9,8 +9,10 @@ namespace limber {
 
 // By Lanczos's method, without keeping its vectors: rounding then repeats eigenvalues, which does
 // not move the largest (Paige, Journal of the Institute of Mathematics and its Applications 18,
-// 1976). Error below 2e-10 of magnitude_bound(), typically far less.
-double largest_eigenvalue(const SparseMatrix& lower);
+// 1976). There is an eigenvalue within `error` x magnitude_bound() of the result, typically far
+// nearer. Where eigenvalues crowd below the largest, as those of a long rope do, the steps grow as
+// 1 / sqrt(error).
+double largest_eigenvalue(const SparseMatrix& lower, double error = 2e-10);
 
 struct Eigenpairs {
   Eigen::VectorXd values;   // shape (C), ascending

@@ -16,6 +16,12 @@ constexpr double kAuthoredDistanceShare = 0.9;
 // narrower one lists more often. 2 was the cheapest on a breaking teapot (1, 2, 3 and 4 tried).
 constexpr double kSkinShare = 2.0;
 
+// A test of two boxes takes about a nanosecond, a point in the grid some thirty.
+constexpr std::size_t kBoxTestsPerPoint = 32;
+
+// A point that has no edge from the start: it has no shape to keep.
+bool is_grain(const Lattice& lattice, std::int32_t p) { return lattice.point_edges[p].empty(); }
+
 PenaltyContact law_between(const LatticeObject& a, const LatticeObject& b) {
   PenaltyContact law;
   law.frequency = std::min(a.contact_frequency, b.contact_frequency);
@@ -137,6 +143,7 @@ bool PointContacts::deformed_too_far(const Lattice& lattice, const Components& p
     listed[within_listing_.points[i]] = within_listing_.at[i];
   }
   for (const std::vector<std::int32_t>& points : points_of(pieces)) {
+    if (points.size() == 1) continue;  // a grain has no shape
     const Mat3 rotation = best_rotation(lattice.motion, listed, lattice.mass, points);
     const Vec3 anchor = lattice.motion[points[0]].position;
     for (std::int32_t p : points) {
@@ -148,10 +155,13 @@ bool PointContacts::deformed_too_far(const Lattice& lattice, const Components& p
   return false;
 }
 
-// Only points inside another group's bounding box can meet a point of it.
+// Only points inside another group's bounding box can meet a point of it. Where there are so many
+// groups that to compare them costs more than it saves, as in a heap of grains: all points.
 std::vector<std::int32_t> PointContacts::points_near_other_groups(const Lattice& lattice) const {
-  const std::vector<std::int32_t> points = all_points(lattice);
-  std::vector<Bounds> bounds(static_cast<std::size_t>(group_count_));
+  std::vector<std::int32_t> points = all_points(lattice);
+  const auto groups = static_cast<std::size_t>(group_count_);
+  if (groups * groups > kBoxTestsPerPoint * points.size()) return points;
+  std::vector<Bounds> bounds(groups);
   for (std::int32_t p : points) bounds[group_[p]].add(lattice.motion[p].position);
   for (Bounds& b : bounds) b.grow(skin_ + 2.0 * skin_ / kSkinShare);
   std::vector<std::vector<std::int32_t>> neighbours(bounds.size());
@@ -218,7 +228,7 @@ PointContacts::Pair PointContacts::make_pair(const Lattice& lattice, std::int32_
                                              std::int32_t q) const {
   const std::int32_t object_p = lattice.point_object[p], object_q = lattice.point_object[q];
   double distance = lattice.contact_radius[p] + lattice.contact_radius[q];
-  if (object_p == object_q) {
+  if (object_p == object_q && !is_grain(lattice, p) && !is_grain(lattice, q)) {
     const Vec3 authored = lattice.authored_position[q] - lattice.authored_position[p];
     distance = std::min(distance, kAuthoredDistanceShare * authored.norm());
   }

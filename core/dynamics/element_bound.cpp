@@ -3,98 +3,159 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <vector>
+
+#include "core/model/rounded_cache.h"
 
 namespace limber {
 namespace {
 
-struct SharedSpring {
-  PointId a, b;
-  Vec3 direction;    // unit
-  double stiffness;  // N/m, this element's share
-};
-
-using Element = std::vector<SharedSpring>;
-
 bool carries(const EdgeAttributes& edge) { return !edge.broken && edge.stiffness > 0.0; }
 
-SharedSpring share_of(const PhysicalModel& model, EdgeId e) {
-  const auto [a, b] = model.geometry.edges[e];
-  const Vec3 along = model.geometry.points[b] - model.geometry.points[a];
-  const std::size_t sharers = std::max<std::size_t>(1, model.geometry.edge_cells[e].size());
-  return {a, b, along.normalized(), model.edges[e].stiffness / static_cast<double>(sharers)};
-}
-
-std::vector<Element> elements_of(const PhysicalModel& model) {
-  std::vector<Element> elements;
-  for (const Cell& cell : model.geometry.cells) {
-    Element& element = elements.emplace_back();
-    for (EdgeId e : cell.edges)
-      if (carries(model.edges[e])) element.push_back(share_of(model, e));
-  }
-  for (EdgeId e : ids_of(model.edges)) {
-    if (!carries(model.edges[e]) || !model.geometry.edge_cells[e].empty()) continue;
-    elements.push_back({share_of(model, e)});
-  }
-  return elements;
-}
-
-std::map<PointId, double> stiffness_around(const Element& element) {
-  std::map<PointId, double> sum;
-  for (const SharedSpring& s : element) {
-    sum[s.a] += s.stiffness;
-    sum[s.b] += s.stiffness;
-  }
-  return sum;
+std::vector<std::int32_t> cells_per_edge(const GeometricModel& geometry) {
+  std::vector<std::int32_t> count(geometry.edges.size(), 0);
+  for (const Cell& cell : geometry.cells)
+    for (EdgeId e : cell.edges) ++count[e.index()];
+  return count;
 }
 
 IdVector<PointId, double> stiffness_around(const PhysicalModel& model) {
   IdVector<PointId, double> sum(model.points.size(), 0.0);
-  for (EdgeId e : ids_of(model.edges)) {
-    if (!carries(model.edges[e])) continue;
-    sum[model.geometry.edges[e].a] += model.edges[e].stiffness;
-    sum[model.geometry.edges[e].b] += model.edges[e].stiffness;
+  for (std::size_t i = 0; i < model.edges.size(); ++i) {
+    const EdgeAttributes& edge = model.edges[EdgeId(i)];
+    if (!carries(edge)) continue;
+    sum[model.geometry.edges[EdgeId(i)].a] += edge.stiffness;
+    sum[model.geometry.edges[EdgeId(i)].b] += edge.stiffness;
   }
   return sum;
 }
 
-// Largest eigenvalue of M_c^-1 K_c by M_c^-1/2 K_c M_c^-1/2.
-double largest_eigenvalue(const PhysicalModel& model, const Element& element,
-                          const IdVector<PointId, double>& total) {
-  struct Place {
-    Eigen::Index row;
-    double scale;  // 1 / sqrt(share of the mass)
+// One element, its points numbered from 0 in ascending order.
+struct Element {
+  struct Spring {
+    int a, b;
+    Vec3 direction;    // unit
+    double stiffness;  // N/m, this element's share
   };
-  std::map<PointId, Place> places;
-  for (const auto& [p, share] : stiffness_around(element)) {
-    const auto row = 3 * static_cast<Eigen::Index>(places.size());
-    places[p] = {row, 1.0 / std::sqrt(model.points[p].mass * share / total[p])};
-  }
-  const auto size = 3 * static_cast<Eigen::Index>(places.size());
+  std::vector<Spring> springs;
+  std::vector<double> mass;  // kg, this element's share of its points
+};
+
+// Largest eigenvalue of M_c^-1 K_c by M_c^-1/2 K_c M_c^-1/2.
+double largest_eigenvalue(const Element& element) {
+  const auto size = 3 * static_cast<Eigen::Index>(element.mass.size());
   Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(size, size);
-  for (const SharedSpring& s : element) {
-    const Place a = places[s.a], b = places[s.b];
+  for (const Element::Spring& s : element.springs) {
+    const double scale_a = 1.0 / std::sqrt(element.mass[s.a]);
+    const double scale_b = 1.0 / std::sqrt(element.mass[s.b]);
     const Mat3 k = s.stiffness * s.direction * s.direction.transpose();
-    scaled.block<3, 3>(a.row, a.row) += a.scale * a.scale * k;
-    scaled.block<3, 3>(b.row, b.row) += b.scale * b.scale * k;
-    scaled.block<3, 3>(a.row, b.row) -= a.scale * b.scale * k;
-    scaled.block<3, 3>(b.row, a.row) -= a.scale * b.scale * k;
+    scaled.block<3, 3>(3 * s.a, 3 * s.a) += scale_a * scale_a * k;
+    scaled.block<3, 3>(3 * s.b, 3 * s.b) += scale_b * scale_b * k;
+    scaled.block<3, 3>(3 * s.a, 3 * s.b) -= scale_a * scale_b * k;
+    scaled.block<3, 3>(3 * s.b, 3 * s.a) -= scale_a * scale_b * k;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
   return solver.eigenvalues().maxCoeff();
 }
 
+// Everything that the eigenvalue depends on.
+void set_key(const Element& element, RoundedKey& key) {
+  double stiffest = 0.0;
+  for (const Element::Spring& s : element.springs) stiffest = std::max(stiffest, s.stiffness);
+  const double direction = RoundedKey::quantum(1.0);
+  const double stiffness = RoundedKey::quantum(stiffest);
+  const double mass = RoundedKey::quantum(*std::ranges::max_element(element.mass));
+  key.clear();
+  key.add(static_cast<std::int64_t>(element.mass.size()));
+  key.add(std::ilogb(stiffness));
+  key.add(std::ilogb(mass));
+  for (double m : element.mass) key.add(m, mass);
+  for (const auto& [a, b, n, k] : element.springs) {
+    key.add(a);
+    key.add(b);
+    for (int axis = 0; axis < 3; ++axis) key.add(n[axis], direction);
+    key.add(k, stiffness);
+  }
+}
+
+// The elements of one model, one after the other through the same arrays. Congruent ones, of which
+// a regular lattice is made, are solved once.
+class Elements {
+ public:
+  explicit Elements(const PhysicalModel& model)
+      : model_(model), sharers_(cells_per_edge(model.geometry)), total_(stiffness_around(model)) {}
+
+  double largest() {
+    double largest = 0.0;
+    for (const Cell& cell : model_.geometry.cells) {
+      largest = std::max(largest, eigenvalue(cell.edges));
+    }
+    for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+      const EdgeId alone(e);
+      if (sharers_[e] == 0) largest = std::max(largest, eigenvalue({&alone, 1}));
+    }
+    return largest;
+  }
+
+ private:
+  double eigenvalue(std::span<const EdgeId> edges) {
+    read(edges);
+    if (element_.springs.empty()) return 0.0;
+    set_key(element_, key_);
+    return eigenvalues_.get(key_, [this] { return largest_eigenvalue(element_); });
+  }
+
+  void read(std::span<const EdgeId> edges) {
+    collect_points(edges);
+    element_.springs.clear();
+    element_.mass.assign(points_.size(), 0.0);
+    for (EdgeId e : edges) {
+      if (carries(model_.edges[e])) read_spring(e);
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i) {  // its springs' sum until here
+      element_.mass[i] = model_.points[points_[i]].mass * element_.mass[i] / total_[points_[i]];
+    }
+  }
+
+  void collect_points(std::span<const EdgeId> edges) {
+    points_.clear();
+    for (EdgeId e : edges) {
+      if (!carries(model_.edges[e])) continue;
+      points_.push_back(model_.geometry.edges[e].a);
+      points_.push_back(model_.geometry.edges[e].b);
+    }
+    std::sort(points_.begin(), points_.end());
+    points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
+  }
+
+  void read_spring(EdgeId e) {
+    const auto [a, b] = model_.geometry.edges[e];
+    const auto row = [this](PointId p) {
+      return static_cast<int>(std::ranges::lower_bound(points_, p) - points_.begin());
+    };
+    const int sharers = std::max(1, sharers_[e.index()]);
+    const Vec3 along = model_.geometry.points[b] - model_.geometry.points[a];
+    element_.springs.push_back(
+        {row(a), row(b), along.normalized(), model_.edges[e].stiffness / sharers});
+    element_.mass[element_.springs.back().a] += element_.springs.back().stiffness;
+    element_.mass[element_.springs.back().b] += element_.springs.back().stiffness;
+  }
+
+  const PhysicalModel& model_;
+  std::vector<std::int32_t> sharers_;  // shape (edges), cells
+  IdVector<PointId, double> total_;    // N/m around each point
+  Element element_;
+  std::vector<PointId> points_;  // of the present element, ascending
+  RoundedKey key_;
+  RoundedCache<double> eigenvalues_;
+};
+
 }  // namespace
 
 double element_frequency_bound(const PhysicalModel& model) {
-  constexpr double kRounding = 1.0 + 1e-9;  // a bound must not fall below by rounding
-  const IdVector<PointId, double> total = stiffness_around(model);
-  double largest = 0.0;
-  for (const Element& element : elements_of(model)) {
-    if (!element.empty()) largest = std::max(largest, largest_eigenvalue(model, element, total));
-  }
-  return kRounding * std::sqrt(largest);
+  // A bound must not fall below by rounding, nor by that of the keys.
+  constexpr double kRounding = 1.0 + 1e-9;
+  return kRounding * std::sqrt(Elements(model).largest());
 }
 
 }  // namespace limber

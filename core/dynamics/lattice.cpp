@@ -106,12 +106,23 @@ double largest_extent(const PhysicalModel& model) {
   return (high - low).maxCoeff();
 }
 
+// omega_c^2 that bears columns of so many points, a spacing apart: 1/s^2, see kContactSinkShare.
+double frequency_squared_to_stand(double points_in_column, double spacing) {
+  return kStandardGravity * points_in_column / (kContactSinkShare * spacing);
+}
+
+// Grains have no shape to stand in: a cubic heap of them.
+double contact_frequency_of_particles(const PhysicalModel& model) {
+  if (model.object.particle_radius == 0.0) return 0.0;
+  const double column = std::cbrt(static_cast<double>(model.points.size()));
+  return std::sqrt(frequency_squared_to_stand(column, 2.0 * model.object.particle_radius));
+}
+
 // omega_c of the object's penalty contacts, rad/s.
 double contact_frequency_of(const PhysicalModel& model) {
-  if (model.edges.empty()) return 0.0;
+  if (model.edges.empty()) return contact_frequency_of_particles(model);
   const double spacing = median_rest_length(model);
-  const double to_stand =
-      kStandardGravity * largest_extent(model) / (kContactSinkShare * spacing * spacing);
+  const double to_stand = frequency_squared_to_stand(largest_extent(model) / spacing, spacing);
   return std::sqrt(std::max(kContactStiffnessShare * median_stiffness_per_mass(model), to_stand));
 }
 
@@ -183,9 +194,9 @@ void append_springs(Lattice& lattice, const PhysicalModel& model, std::int32_t f
     }
   }
   for (std::size_t p = 0; p < shortest.size(); ++p) {
-    if (shortest[p] < kUnbreakable) {
-      lattice.contact_radius[first_point + p] = model.object.contact_share * shortest[p];
-    }
+    lattice.contact_radius[first_point + p] = shortest[p] < kUnbreakable
+                                                  ? model.object.contact_share * shortest[p]
+                                                  : model.object.particle_radius;
   }
 }
 

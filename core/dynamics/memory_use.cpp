@@ -19,10 +19,8 @@ std::size_t bytes_of_entries(const IdVector<IdType, T>& array) {
 
 std::size_t bytes(const GeometricModel& geometry) {
   std::size_t sum = bytes_of_entries(geometry.points) + bytes_of_entries(geometry.edges) +
-                    bytes_of_entries(geometry.faces) + bytes_of_entries(geometry.cells) +
-                    bytes_of_entries(geometry.edge_cells);
+                    bytes_of_entries(geometry.faces) + bytes_of_entries(geometry.cells);
   for (const Cell& cell : geometry.cells) sum += bytes(cell.edges, cell.faces);
-  for (const std::vector<CellId>& cells : geometry.edge_cells) sum += bytes(cells);
   return sum;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 namespace limber {
 
@@ -30,6 +31,22 @@ double cell_volume(const GeometricModel& model, CellId cell) {
   return six_volumes / 6.0;
 }
 
+IndexRows edge_cells(const GeometricModel& model) {
+  const auto for_each_link = [&](auto visit) {
+    for (std::size_t c = 0; c < model.cells.size(); ++c)
+      for (EdgeId e : model.cells[CellId(c)].edges)
+        if (model.edges.contains(e)) visit(e.index(), static_cast<std::int32_t>(c));
+  };
+  IndexRows rows;
+  rows.start.assign(model.edges.size() + 1, 0);
+  for_each_link([&](std::size_t e, std::int32_t) { ++rows.start[e + 1]; });
+  std::partial_sum(rows.start.begin(), rows.start.end(), rows.start.begin());
+  rows.items.resize(rows.start.back());
+  std::vector<std::int32_t> next(rows.start.begin(), rows.start.end() - 1);
+  for_each_link([&](std::size_t e, std::int32_t c) { rows.items[next[e]++] = c; });
+  return rows;
+}
+
 void GeometricModelBuilder::begin_subobject(std::string name) {
   close_subobject();
   Subobject s;
@@ -52,18 +69,39 @@ void GeometricModelBuilder::close_subobject() {
 
 PointId GeometricModelBuilder::add_point(const Vec3& position_m) {
   assert(!model_.subobjects.empty() && "begin_subobject first");
+  around_.push_back({});
   return model_.points.push_back(position_m);
 }
 
 EdgeId GeometricModelBuilder::edge(PointId a, PointId b) {
+  assert(around_.contains(a) && around_.contains(b) && "add_point first");
+  const EdgeId found = find_edge(a, b);
+  if (found.valid()) return found;
   const auto [low, high] = std::minmax(a, b);
-  const std::uint64_t key = (std::uint64_t(low.index()) << 32) | std::uint64_t(high.index());
-  const auto [found, inserted] = edge_of_points_.try_emplace(key);
-  if (inserted) {
-    found->second = model_.edges.push_back({low, high});
-    model_.edge_cells.push_back({});
+  return append_edge(low, high);
+}
+
+// Walks the shorter of the two lists.
+EdgeId GeometricModelBuilder::find_edge(PointId a, PointId b) const {
+  const auto [from, to] = around_[a].count <= around_[b].count ? std::pair(a, b) : std::pair(b, a);
+  EdgeId e = around_[from].first;
+  while (e.valid()) {
+    const Edge& edge = model_.edges[e];
+    const bool at_b = edge.b == from;
+    if ((at_b ? edge.a : edge.b) == to) return e;
+    e = next_[e][at_b];
   }
-  return found->second;
+  return e;
+}
+
+EdgeId GeometricModelBuilder::append_edge(PointId a, PointId b) {
+  const EdgeId e = model_.edges.push_back({a, b});
+  next_.push_back({around_[a].first, around_[b].first});
+  for (PointId p : {a, b}) {
+    around_[p].first = e;
+    ++around_[p].count;
+  }
+  return e;
 }
 
 FaceId GeometricModelBuilder::add_face(std::array<PointId, 3> corners) {
@@ -73,10 +111,10 @@ FaceId GeometricModelBuilder::add_face(std::array<PointId, 3> corners) {
 CellId GeometricModelBuilder::add_cell(std::span<const std::array<PointId, 2>> edges,
                                        std::span<const std::array<PointId, 3>> outward_faces) {
   const CellId id = model_.cells.push_back({});
+  model_.cells[id].edges.reserve(edges.size());
+  model_.cells[id].faces.reserve(outward_faces.size());
   for (const auto& [a, b] : edges) {
-    const EdgeId e = edge(a, b);
-    model_.cells[id].edges.push_back(e);
-    model_.edge_cells[e].push_back(id);
+    model_.cells[id].edges.push_back(edge(a, b));
   }
   for (const auto& corners : outward_faces) {
     const FaceId f = add_face(corners);
@@ -88,7 +126,8 @@ CellId GeometricModelBuilder::add_cell(std::span<const std::array<PointId, 2>> e
 
 GeometricModel GeometricModelBuilder::finish() {
   close_subobject();
-  edge_of_points_.clear();
+  around_ = {};
+  next_ = {};
   return std::exchange(model_, {});
 }
 

@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -75,13 +76,11 @@ class IdVector {
   std::vector<T> items_;
 };
 
-// for (PointId p : ids_of(model.points)) ...
+// for (PointId p : ids_of(model.points)) ... Counts up to the size that `items` have now.
 template <class IdType, class T>
-std::vector<IdType> ids_of(const IdVector<IdType, T>& items) {
-  std::vector<IdType> ids;
-  ids.reserve(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) ids.push_back(IdType(i));
-  return ids;
+auto ids_of(const IdVector<IdType, T>& items) {
+  return std::views::iota(std::size_t{0}, items.size()) |
+         std::views::transform([](std::size_t i) { return IdType(i); });
 }
 
 }  // namespace limber

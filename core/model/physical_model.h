@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/model/geometric_model.h"
+#include "core/model/skin.h"
 
 namespace limber {
 
@@ -50,6 +51,9 @@ struct SurfaceProperties {
   double transparency = 0.0;         // 0 opaque .. 1 clear
   double index_of_refraction = 1.5;  // of what is transparent, >= 1: 1.33 water, 1.5 glass
   std::string texture;               // file of an image; empty: none
+  // m, how thick what has no faces is: edges of no cell (rope) and points without edges (grains). 0:
+  // they are not seen.
+  double strand_radius = 0.0;
 };
 
 // What belongs to one subobject and follows it through gluing and breaking.
@@ -70,6 +74,9 @@ struct ObjectAttributes {
   // must not overlap at rest, or breaking their edge would set free contact energy. 0: points of
   // this object pass through one another and cost no contact.
   double contact_share = 0.45;
+  // m, contact radius of a point that has no edge from the start, such as a grain: nothing else says
+  // how large it is. 0: it passes through other points.
+  double particle_radius = 0.0;
 };
 
 // A geometric model with all its physical attributes: what the simulator takes and gives back.
@@ -81,6 +88,7 @@ struct PhysicalModel {
   IdVector<FaceId, FaceAttributes> faces;
   IdVector<CellId, CellAttributes> cells;
   std::vector<SubobjectAttributes> parts;  // one per subobject
+  std::vector<Skin> skins;               // what is seen instead of the boundary, where there are any
   ObjectAttributes object;
 };
 

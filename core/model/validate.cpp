@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "core/model/check_skins.h"
 #include "core/model/check_topology.h"
 #include "core/model/diagnostic_list.h"
 
-// The checks P1 to P12 of docs/invariants.md, after those of the geometry.
+// The checks P1 to P12 of docs/invariants.md, between those of the geometry and the skins.
 
 namespace limber {
 namespace {
@@ -84,16 +85,16 @@ void check_cell_states(const PhysicalModel& model, DiagnosticList& out) {
   }
 }
 
-bool has_cells_all_invalid(const PhysicalModel& model, const std::vector<CellId>& cells) {
-  for (CellId c : cells)
-    if (!model.cells.contains(c) || model.cells[c].valid) return false;
+bool has_cells_all_invalid(const PhysicalModel& model, std::span<const std::int32_t> cells) {
+  for (std::int32_t c : cells)
+    if (model.cells[CellId(std::size_t(c))].valid) return false;
   return !cells.empty();
 }
 
 void check_edge_states(const PhysicalModel& model, DiagnosticList& out) {
-  if (model.geometry.edge_cells.size() != model.edges.size()) return;  // G5 says so
+  const IndexRows cells_of = edge_cells(model.geometry);
   for (std::size_t i = 0; i < model.edges.size() && !out.full(); ++i) {
-    const std::vector<CellId>& cells = model.geometry.edge_cells[EdgeId(i)];
+    const std::span<const std::int32_t> cells = cells_of[i];
     if (model.edges[EdgeId(i)].broken || !has_cells_all_invalid(model, cells)) continue;
     out.add(say("edge ", i),
             say("P8 is whole, but all of its ", cells.size(), " cells are invalid"),
@@ -110,6 +111,9 @@ void check_object(const ObjectAttributes& object, DiagnosticList& out) {
   if (!finite_from(0.0, object.internal_damping))
     out.add("object", say("P9 internal damping is ", object.internal_damping, " 1/s"),
             "give it a finite value, 0 or above");
+  if (!finite_from(0.0, object.particle_radius))
+    out.add("object", say("P9 particle radius is ", object.particle_radius, " m"),
+            "give it a finite value, 0 (no contact) or above");
   if (!(object.contact_share >= 0.0 && object.contact_share <= 0.45))
     out.add("object", say("P9 contact share is ", object.contact_share),
             "give it a share of the shortest edge from 0 (no contact) to 0.45");
@@ -124,6 +128,9 @@ void check_part(const SubobjectAttributes& part, std::size_t i, DiagnosticList& 
     if (!in_unit_interval(x))
       out.add(say("part ", i), say("P10 has a colour, specularity or transparency of ", x),
               "give it values from 0 to 1");
+  if (!finite_from(0.0, s.strand_radius))
+    out.add(say("part ", i), say("P10 strand radius is ", s.strand_radius, " m"),
+            "give it a finite value, 0 or above");
   if (!finite_from(1.0, s.index_of_refraction))
     out.add(say("part ", i), say("P10 index of refraction is ", s.index_of_refraction),
             "give it a finite value, 1 (a vacuum) or above");
@@ -157,6 +164,7 @@ void check_physics(const PhysicalModel& model, DiagnosticList& out) {
   }
   check_object(model.object, out);
   check_parts(model, out);
+  check_skins(model, out);
 }
 
 }  // namespace

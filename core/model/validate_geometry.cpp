@@ -273,28 +273,6 @@ void check_volumes(const GeometricModel& model, DiagnosticList& out) {
   });
 }
 
-void check_edge_cells(const GeometricModel& model, DiagnosticList& out) {
-  if (model.edge_cells.size() != model.edges.size()) {
-    out.add("edge_cells",
-            say("G5 has ", model.edge_cells.size(), " entries for ", model.edges.size(), " edges"),
-            "give it one list for every edge");
-    return;
-  }
-  IdVector<EdgeId, std::vector<CellId>> wanted(model.edges.size());
-  for (CellId c : ids_of(model.cells))
-    for (EdgeId e : model.cells[c].edges)
-      if (model.edges.contains(e)) wanted[e].push_back(c);
-  for_each_id(model.edges, out, [&](EdgeId e) {
-    std::vector<CellId> found = model.edge_cells[e];
-    std::sort(found.begin(), found.end());
-    if (found == wanted[e]) return;
-    out.add(name_of(e),
-            say("G5 edge_cells names ", found.size(), " cells, but ", wanted[e].size(),
-                " cells list the edge", found.size() == wanted[e].size() ? ", not the same" : ""),
-            "enter every edge of a cell in both directions, as GeometricModelBuilder does");
-  });
-}
-
 template <class Range>
 void check_level(const std::vector<Subobject>& subobjects, Range Subobject::*range,
                  std::size_t size, const char* level, DiagnosticList& out) {
@@ -333,7 +311,6 @@ void check_topology(const GeometricModel& model, DiagnosticList& out) {
   check_equal_faces(model, out);
   check_cells(model, out);
   check_listed_once(model, out);
-  check_edge_cells(model, out);
   check_subobjects(model, out);
 }
 

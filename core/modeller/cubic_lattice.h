@@ -18,7 +18,7 @@ struct CubicSprings {
 enum class CubicSurface {
   kUniform,  // every edge once with full k, every point with the full mass: simple, a stiff skin
   kShared,   // sums of equal cells (k1/4, k2/2, k3, m/8 each): a surface of half edges, as
-            // elasticity theory has it
+             // elasticity theory has it
 };
 
 struct CubicLattice {

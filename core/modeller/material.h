@@ -1,18 +1,17 @@
 #pragma once
 
-#include <span>
 #include <string>
-#include <vector>
 
 #include "core/model/physical_model.h"
 
 namespace limber {
 
 // An isotropic material in SI. A lattice of central forces has Poisson ratio 1/4, whatever is
-// meant.
+// meant: modelling_notes() says what that costs.
 struct Material {
   double density = 0.0;                   // kg/m^3
   double youngs_modulus = 0.0;            // Pa, of the real material
+  double poisson_ratio = 0.25;            // of the real material; asked for by nothing but reports
   double strain_at_break = kUnbreakable;  // of the real material, tension
   double strain_at_crush = kUnbreakable;  // of the real material, compression
   double damping_ratio = 0.0;             // of the lattice's highest frequency
@@ -28,26 +27,23 @@ struct Material {
   double effective_strain_at_crush() const;
 };
 
-// Spring constants (N/m) that make the cell as nearly isotropic with the given modulus as its edges
-// allow: non-negative least squares on the fully symmetric elasticity tensor
-// C_ijkl = sum_e k_e l_e^2 n_i n_j n_k n_l / V = (2/5) E (d_ij d_kl + d_ik d_jl + d_il d_jk),
-// with the smoothest solution where several fit. `edges_m` are the edge vectors.
-std::vector<double> isotropic_cell_stiffness(std::span<const Vec3> edges_m, double volume_m3,
-                                             double youngs_modulus_Pa);
+// Throws InputError, which begins with `where`, for a value out of range.
+void require_valid(const Material& material, const std::string& where);
 
-// Largest deviation of a component of the cell's elasticity tensor from the isotropic one, relative
-// to C_1111 = 1.2 E.
-double anisotropy(std::span<const Vec3> edges_m, std::span<const double> stiffness_N_m,
-                  double volume_m3, double youngs_modulus_Pa);
+// The speed, m/s, at which a bar that hits an equal one, or lands on what does not give way,
+// strains to the breaking point: strain at break x sqrt(modulus / density), of the effective values
+// (Kolsky, Stress Waves in Solids, 1953: the front's strain is v / c). The same for every S.
+double critical_impact_speed(const Material& material);
 
 // Sets c = (2 zeta / omega_max) k on every edge, omega_max by highest_frequency(): a mode of
 // frequency omega is damped with the ratio zeta omega / omega_max. Call it again after gluing, when
-// omega_max is that of the whole.
+// omega_max is that of the whole, and after stiffness or mass was changed by hand.
 void set_stiffness_proportional_damping(PhysicalModel& model, double damping_ratio);
 
 // The physical attribute modeller for solids: masses, spring and damping constants and thresholds,
 // per cell from its shape and size, summed over the cells that share an edge or a point. Damping is
-// proportional to stiffness as above.
+// proportional to stiffness as above. For parts of different materials, and for values of single
+// edges, see material_assignment.h.
 // Throws InputError when a value is out of range or a cell has no positive volume.
 PhysicalModel with_material(GeometricModel geometry, std::string name, const Material& material);
 

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "core/model/errors.h"
+#include "core/modeller/arc_length.h"
+#include "core/modeller/prismatic_cell.h"
 
 namespace limber {
 namespace {
@@ -23,33 +25,6 @@ constexpr double kPoleRadius = 0.6;
 // Neighbours on an inner ring stay this part of the spacing apart: shorter edges would set the
 // highest frequency of the whole lattice.
 constexpr double kLeastInnerSpacing = 0.5;
-
-// Cumulative length of a sampled curve, and the way back.
-class ArcLength {
- public:
-  explicit ArcLength(std::vector<double> parameter) : parameter_(std::move(parameter)) {}
-
-  void append(double step) { length_.push_back(length_.back() + step); }
-  double total() const { return length_.back(); }
-
-  double parameter_at(double length) const {
-    const auto above = std::upper_bound(length_.begin() + 1, length_.end() - 1, length);
-    const std::size_t i = static_cast<std::size_t>(above - length_.begin());
-    const double step = length_[i] - length_[i - 1];
-    const double t = step > 0.0 ? (length - length_[i - 1]) / step : 0.0;
-    return std::lerp(parameter_[i - 1], parameter_[i], t);
-  }
-
- private:
-  std::vector<double> parameter_;
-  std::vector<double> length_ = {0.0};
-};
-
-std::vector<double> evenly(double first, double last, int steps) {
-  std::vector<double> values;
-  for (int i = 0; i <= steps; ++i) values.push_back(std::lerp(first, last, double(i) / steps));
-  return values;
-}
 
 // Along v, averaged over the meridians.
 ArcLength length_along(const RingSurface& surface, double v_begin, double v_end) {
@@ -217,26 +192,6 @@ void orient_outward(std::vector<Triangle>& triangles) {
   for (Triangle& t : triangles) std::swap(t[1], t[2]);
 }
 
-// The prism between a triangle of the surface, anticlockwise from outside, and its inner image.
-void add_prism(GeometricModelBuilder& builder, const Triangle& t) {
-  std::vector<std::array<PointId, 2>> edges;
-  std::vector<std::array<PointId, 3>> faces = {{t[0].outer(), t[1].outer(), t[2].outer()},
-                                               {t[0].inner(), t[2].inner(), t[1].inner()}};
-  for (int i = 0; i < 3; ++i) {
-    const Corner& p = t[i];
-    const Corner& q = t[(i + 1) % 3];
-    edges.push_back({p.outer(), q.outer()});
-    edges.push_back({p.inner(), q.inner()});
-    edges.push_back({p.outer(), p.inner()});
-    edges.push_back({p.outer(), q.inner()});
-    edges.push_back({p.inner(), q.outer()});
-    for (const auto& side : split_square({p.outer(), p.inner(), q.inner(), q.outer()})) {
-      faces.push_back(side);
-    }
-  }
-  builder.add_cell(edges, faces);
-}
-
 void check(const RingShellOptions& options) {
   const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
   if (!positive(options.spacing)) {
@@ -261,7 +216,9 @@ void add_ring_shell(GeometricModelBuilder& builder, const RingSurface& surface,
   const std::vector<Ring> rings = add_rings(builder, surface, options);  // triangles point into it
   std::vector<Triangle> triangles = zip_all(rings);
   orient_outward(triangles);
-  for (const Triangle& t : triangles) add_prism(builder, t);
+  for (const auto& [a, b, c] : triangles) {
+    add_prism(builder, {a.outer(), b.outer(), c.outer()}, {a.inner(), b.inner(), c.inner()});
+  }
 }
 
 }  // namespace limber

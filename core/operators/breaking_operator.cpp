@@ -194,8 +194,7 @@ BreakingTopology breaking_topology(const GeometricModel& geometry) {
   BreakingTopology topology;
   topology.cell_edges = index_rows<EdgeId>(
       geometry.cells, [](const Cell& cell) -> const auto& { return cell.edges; });
-  topology.edge_cells = index_rows<CellId>(
-      geometry.edge_cells, [](const auto& list) -> const auto& { return list; });
+  topology.edge_cells = edge_cells(geometry);
   topology.cell_faces = index_rows<FaceId>(
       geometry.cells, [](const Cell& cell) -> const auto& { return cell.faces; });
   topology.face_cell = face_cells(geometry);

@@ -4,20 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "core/model/index_rows.h"
 #include "core/model/physical_model.h"
 
 namespace limber {
-
-// Compressed rows: row i holds items[start[i] .. start[i+1]).
-struct IndexRows {
-  std::vector<std::int32_t> start;  // shape (rows + 1)
-  std::vector<std::int32_t> items;
-
-  std::span<const std::int32_t> operator[](std::size_t row) const {
-    return {items.data() + start[row], items.data() + start[row + 1]};
-  }
-  std::size_t rows() const { return start.empty() ? 0 : start.size() - 1; }
-};
 
 // The reverse of a face, with its cell: what breaking asks of it without reading that face.
 struct TwinFace {

@@ -5,6 +5,7 @@
 
 #include "core/model/diagnostic_list.h"
 #include "core/model/validate.h"
+#include "core/operators/glue_notes.h"
 #include "core/operators/point_pairs.h"
 
 namespace limber {
@@ -90,7 +91,6 @@ void shift_behind(const GeometricModel& first, GeometricModel& g) {
     shift(cell.edges, edges);
     shift(cell.faces, faces);
   }
-  for (std::vector<CellId>& list : g.edge_cells) shift(list, cells);
   for (Subobject& s : g.subobjects)
     s = {s.name, s.points.shifted_by(points), s.edges.shifted_by(edges), s.faces.shifted_by(faces),
          s.cells.shifted_by(cells)};
@@ -102,8 +102,17 @@ void append(GeometricModel& g, GeometricModel second) {
   g.edges.append(second.edges);
   g.faces.append(second.faces);
   g.cells.append(second.cells);
-  g.edge_cells.append(second.edge_cells);
   g.subobjects.insert(g.subobjects.end(), second.subobjects.begin(), second.subobjects.end());
+}
+
+void append(std::vector<Skin>& skins, std::vector<Skin> second, const GeometricModel& first) {
+  for (Skin& skin : second) {
+    for (SkinCell& cell : skin.cells) {
+      shift(cell.cell, first.cells.size());
+      for (PointId& corner : cell.corners) shift(corner, first.points.size());
+    }
+    skins.push_back(std::move(skin));
+  }
 }
 
 // All of `b` behind `a`; what belongs to the object as a whole stays that of `a`.
@@ -116,13 +125,13 @@ PhysicalModel side_by_side(const PhysicalModel& a, const PhysicalModel& b) {
   both.faces.append(b.faces);
   both.cells.append(b.cells);
   both.parts.insert(both.parts.end(), b.parts.begin(), b.parts.end());
+  append(both.skins, b.skins, a.geometry);
   return both;
 }
 
 void add_bond(PhysicalModel& both, PointId end_a, PointId end_b, double length_m,
               const GlueBond& bond) {
-  both.geometry.edges.push_back({end_a, end_b});
-  both.geometry.edge_cells.push_back({});  // breaking it invalidates no cell
+  both.geometry.edges.push_back({end_a, end_b});  // of no cell: breaking it invalidates none
   both.edges.push_back({.stiffness = bond.stiffness,
                         .damping = bond.damping,
                         .rest_length = length_m,
@@ -158,7 +167,7 @@ GlueResult glue(const PhysicalModel& a, const PhysicalModel& b, const GlueBond& 
   glued.edges.end = static_cast<std::int32_t>(both.geometry.edges.size());
   both.geometry.subobjects.push_back(std::move(glued));
   both.parts.emplace_back();
-  return {std::move(both), pairs.size()};
+  return {std::move(both), pairs.size(), glue_notes(a, b, glue_seam(a, b, pairs))};
 }
 
 }  // namespace limber

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include "core/model/errors.h"
 #include "core/model/physical_model.h"
 
 namespace limber {
@@ -17,6 +20,7 @@ struct GlueBond {
 struct GlueResult {
   PhysicalModel model;
   std::size_t bonds = 0;
+  std::vector<Diagnostic> notes;  // where the seam will not behave as one piece: glue_notes()
 };
 
 // The gluing operator (paper, section 5.3): both models become one, with new edges between every

@@ -92,7 +92,8 @@ int separating_axis(const Box& a, const Box& b) {
 }
 
 std::vector<PointId> sorted_along(const PointPositions& points, int axis) {
-  std::vector<PointId> ids = ids_of(points);
+  std::vector<PointId> ids;
+  for (PointId p : ids_of(points)) ids.push_back(p);
   std::sort(ids.begin(), ids.end(), [&](PointId p, PointId q) {
     return std::pair(points[p][axis], p) < std::pair(points[q][axis], q);
   });

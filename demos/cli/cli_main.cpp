@@ -12,6 +12,8 @@
 #include "core/model/errors.h"
 #include "demos/cli/command.h"
 #include "demos/cli/compare_command.h"
+#include "demos/cli/info_command.h"
+#include "demos/cli/model_command.h"
 #include "demos/cli/render_command.h"
 #include "demos/cli/run_command.h"
 
@@ -82,6 +84,8 @@ Action parse(int argc, const char* const* argv) {
   add_run_command(app, chosen);
   add_compare_command(app, chosen);
   add_render_command(app, chosen);
+  add_model_command(app, chosen);
+  add_info_command(app, chosen);
   refuse_unknown_command(app, argc, argv);
   try {
     app.parse(argc, argv);

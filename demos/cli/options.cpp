@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "core/model/errors.h"
-#include "demos/cli/atomic_file.h"
+#include "core/storage/atomic_file.h"
 #include "demos/cli/numbers.h"
 
 namespace limber::demos {
@@ -44,7 +44,7 @@ Policy parse_policy(const std::string& text) {
 }  // namespace
 
 void add_scene(CLI::App& command, SceneOptions& options, bool required) {
-  command.add_option("SCENE", options.scene, "name of a scene; `limber run` alone lists them")
+  command.add_option("SCENE", options.scene, "name of a scene (`limber run` alone lists them) or a model file")
       ->required(required)
       ->type_name("");
 }
@@ -90,18 +90,18 @@ void add_policy(CLI::App& command, SceneOptions& options) {
       ->type_name("POLICY");
 }
 
-void add_json(CLI::App& command, SceneOptions& options) {
+void add_json(CLI::App& command, OutputOptions& options) {
   command
       .add_option("--json", options.json,
                   "write the same facts as JSON; - writes them to standard output, alone")
       ->type_name("FILE");
 }
 
-void require_json_target(const SceneOptions& options) {
+void require_json_target(const OutputOptions& options) {
   if (!options.json.empty() && options.json != "-") require_writable(options.json);
 }
 
-void write_json(const SceneOptions& options, const std::string& text, Terminal& terminal) {
+void write_json(const OutputOptions& options, const std::string& text, Terminal& terminal) {
   if (options.json.empty()) return;
   if (options.json == "-") {
     terminal.out << text;
@@ -110,6 +110,6 @@ void write_json(const SceneOptions& options, const std::string& text, Terminal& 
   }
 }
 
-bool tables_wanted(const SceneOptions& options) { return options.json != "-"; }
+bool tables_wanted(const OutputOptions& options) { return options.json != "-"; }
 
 }  // namespace limber::demos

@@ -8,12 +8,16 @@
 
 namespace limber::demos {
 
+// Where the facts go beside the tables.
+struct OutputOptions {
+  std::string json;  // file, "-" for standard output, empty for none
+};
+
 // What several commands ask for in the same words.
-struct SceneOptions {
+struct SceneOptions : OutputOptions {
   std::string scene;
   ParameterValues changes;  // of --set
   RunOptions run;
-  std::string json;  // file, "-" for standard output, empty for none
 };
 
 // Each adds one option (or the argument SCENE) to a command. The values are checked while the line
@@ -23,15 +27,15 @@ void add_set(CLI::App& command, SceneOptions& options);
 void add_seconds(CLI::App& command, SceneOptions& options);
 void add_tick(CLI::App& command, SceneOptions& options);
 void add_policy(CLI::App& command, SceneOptions& options);
-void add_json(CLI::App& command, SceneOptions& options);
+void add_json(CLI::App& command, OutputOptions& options);
 
 // Checks before any work that the result can be delivered.
-void require_json_target(const SceneOptions& options);
+void require_json_target(const OutputOptions& options);
 
 // Delivers `text` to where --json says; does nothing without --json.
-void write_json(const SceneOptions& options, const std::string& text, Terminal& terminal);
+void write_json(const OutputOptions& options, const std::string& text, Terminal& terminal);
 
 // Standard output belongs to the JSON alone once `--json -` asked for it.
-bool tables_wanted(const SceneOptions& options);
+bool tables_wanted(const OutputOptions& options);
 
 }  // namespace limber::demos

@@ -9,10 +9,12 @@
 #include <ostream>
 
 #include "core/model/errors.h"
-#include "demos/cli/atomic_file.h"
+#include "core/storage/atomic_file.h"
+#include "core/storage/model_file.h"
 #include "demos/cli/numbers.h"
 #include "demos/cli/options.h"
 #include "demos/cli/progress_bar.h"
+#include "demos/render/model_view.h"
 #include "demos/render/pov_scene.h"
 #include "demos/render/povray.h"
 
@@ -29,7 +31,8 @@ constexpr const char* kLegend =
     "reddish rough ones were inside until something broke.\n";
 
 struct RenderOptions : SceneOptions {
-  double time_s = 0.0;
+  double time_s = -1.0;  // < 0: not given
+  bool lattice = false;
   std::string image;
   PictureSize size;
 };
@@ -74,6 +77,18 @@ Snapshot draw(const RenderOptions& options, const Scene& scene, Terminal& termin
   return snapshot;
 }
 
+// A model file without a time: the model as it is.
+void render_model(const RenderOptions& options, Terminal& terminal) {
+  const PhysicalModel model = read_model(options.scene);
+  require_povray();
+  require_writable(options.image);
+  const ModelLook look = options.lattice ? ModelLook::kLattice : ModelLook::kSkin;
+  const Snapshot snapshot = model_snapshot(model, look);
+  write_file_atomically(options.image, trace_png(pov_scene(snapshot, options.size), options.size));
+  terminal.out << fmt::format("{}: {}, {} x {} pixels\n", options.image, model.name,
+                              options.size.width, options.size.height);
+}
+
 void render_scene(const RenderOptions& options, Terminal& terminal) {
   const Scene scene = build_scene(options.scene, options.changes);
   require_povray();
@@ -82,6 +97,13 @@ void render_scene(const RenderOptions& options, Terminal& terminal) {
   terminal.out << fmt::format("{}: {} at {:.4f} s, {} x {} pixels, softening S {:.4g}\n{}",
                               options.image, scene.name, snapshot.time_s, options.size.width,
                               options.size.height, largest_softening(scene), kLegend);
+}
+
+void render(const RenderOptions& options, Terminal& terminal) {
+  if (options.time_s >= 0.0) return render_scene(options, terminal);
+  if (std::filesystem::is_regular_file(options.scene)) return render_model(options, terminal);
+  throw InputError({"command line", "--time is missing",
+                    "name the instant to show; only a model file may go without"});
 }
 
 void add_pixels(CLI::App& command, const std::string& side, int& pixels) {
@@ -100,9 +122,11 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
   command
       .add_option_function<std::string>(
           "--time", [&](const std::string& text) { options.time_s = parse_time(text); },
-          "the instant to show, simulated s; the nearest tick is taken")
-      ->type_name("S")
-      ->required();
+          "the instant to show, simulated s; the nearest tick is taken. A model file may go without: "
+          "then it is shown as it is")
+      ->type_name("S");
+  command.add_flag("--lattice", options.lattice,
+                   "of a model file without --time: its cells instead of its skin");
   command
       .add_option_function<std::string>(
           "-o,--output", [&](const std::string& text) { options.image = parse_image(text); },
@@ -125,7 +149,7 @@ void add_render_command(CLI::App& app, Action& chosen) {
   add_set(*command, *options);
   command->footer(kLegend);
   command->callback([options, &chosen] {
-    chosen = [options](Terminal& terminal) { render_scene(*options, terminal); };
+    chosen = [options](Terminal& terminal) { render(*options, terminal); };
   });
 }
 

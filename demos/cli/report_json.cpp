@@ -88,6 +88,7 @@ Json plausibility(const RunResult& run) {
           {"impact_speed_m_s", run.impact_speed_m_s},
           {"fastest_piece_rel", run.fastest_piece_rel},
           {"highest_rise_m", run.highest_rise_m},
+          {"highest_energy_rel", run.highest_energy_rel},
           {"state_hash", hex_hash(run.state_hash)}};
 }
 

@@ -169,6 +169,7 @@ std::string outcome_section(const RunResult& flexible, const RunResult& switchin
       [](const RunResult& r) { return significant(r.fastest_chip_m_s); });
   row("free fall to the floor, m/s",
       [](const RunResult& r) { return significant(r.impact_speed_m_s); });
+  row("highest energy / start", [](const RunResult& r) { return significant(r.highest_energy_rel); });
   row("highest rise, m", [](const RunResult& r) { return significant(r.highest_rise_m); });
   return section(table);
 }

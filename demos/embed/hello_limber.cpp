@@ -25,7 +25,6 @@ int main() {
   world.addRigidBody(&floor);
   world.addRigidBody(&kerb);
 
-  // readme begin
   limber::bullet::CoSimulation limber(world);  // Limber: takes part in every step from now on
 
   limber::Material clay;         // Limber: what the beam is made of, in SI units
@@ -46,7 +45,6 @@ int main() {
       return 1;
     }
   }
-  // readme end
 
   for (const limber::bullet::PieceView& piece : limber.pieces()) {
     std::printf("%s piece of %g kg\n", piece.flexible ? "flexible" : "rigid", piece.motion.mass);

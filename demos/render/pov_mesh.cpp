@@ -170,6 +170,16 @@ std::string mesh(const Snapshot::Body& body, double refraction,
          texture_list(body.surface) + faces(body, drawn) + interior + "}\n";
 }
 
+std::string strand(const Snapshot::RopeLength& s) {
+  // Round joints where lengths meet; POV-Ray wants no cylinder without length.
+  std::string text = fmt::format("union {{ sphere {{ {},{} }} sphere {{ {},{} }} ", pov(s.a),
+                                 pov(s.radius), pov(s.b), pov(s.radius));
+  if ((s.b - s.a).norm() > 1e-9) {
+    text += fmt::format("cylinder {{ {},{},{} }} ", pov(s.a), pov(s.b), pov(s.radius));
+  }
+  return text + (s.flexible ? amber(s.surface) : glazed(s.surface)) + "}\n";
+}
+
 }  // namespace
 
 std::string pov_body(const Snapshot::Body& body) {
@@ -177,6 +187,7 @@ std::string pov_body(const Snapshot::Body& body) {
   std::string text;
   for (const auto& [refraction, triangles] : by_refraction(body.surface, drawn))
     text += mesh(body, refraction, triangles);
+  for (const Snapshot::RopeLength& s : body.strands) text += strand(s);
   return text + lattice(body, drawn);
 }
 

@@ -11,7 +11,7 @@ namespace limber::demos {
 //   flexible just now           the same drawn towards amber, with its lattice on it
 //   exposed by breaking         rough reddish clay, sharp edges; amber-lit where flexible
 // One mesh2 for all that is opaque and one for each index of refraction of what is transparent;
-// thin cylinders for the lattice. Empty for a body without visible triangles. Images (texture) are
+// thin cylinders for the lattice, thicker ones for ropes, balls for grains. Empty for a body of which nothing is visible. Images (texture) are
 // not drawn: a lattice says nothing about where on an image its points lie.
 std::string pov_body(const Snapshot::Body& body);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -56,14 +57,15 @@ struct SceneEntry {
   std::string name;
   std::string summary;
   std::vector<Parameter> parameters;
-  Scene (*build)(const ParameterValues& values);  // holds a value for every parameter
+  std::function<Scene(const ParameterValues&)> build;  // gets a value for every parameter
 };
 
 // The scenes that ship with Limber.
 const std::vector<SceneEntry>& scene_library();
 
-// Builds a scene by name; `changes` replace defaults. Throws InputError for an unknown scene or
-// parameter (naming the nearest one) and for a model that validate() refuses.
+// Builds a scene by name, or one that drops the model in the file of that name; `changes` replace
+// defaults. Throws InputError for an unknown scene or parameter (naming the nearest one), for a
+// model that validate() refuses, and as read_model().
 Scene build_scene(const std::string& name, const ParameterValues& changes = {});
 
 }  // namespace limber::demos

@@ -6,6 +6,7 @@
 
 #include "bullet_bridge/stage.h"
 #include "core/operators/boundary_operator.h"
+#include "core/operators/strands.h"
 #include "core/operators/time_operator.h"
 
 namespace limber::demos {
@@ -58,6 +59,11 @@ SwitchEvent event_of(const bullet::SwitchRecord& record, const Scene& scene) {
   return event;
 }
 
+bool has_strands(const PhysicalModel& model) {
+  return std::any_of(model.parts.begin(), model.parts.end(),
+                     [](const auto& part) { return part.surface.strand_radius > 0.0; });
+}
+
 LedgerTotals totals_of(const bullet::CoSimulation& limber) {
   LedgerTotals totals;
   for (const bullet::SwitchRecord& record : limber.switches()) {
@@ -87,6 +93,8 @@ struct Simulation::State {
   double fastest_chip = 0.0;   // m/s
   double fastest_piece_rel = 0.0;
   double highest_rise = -1e30;
+  double start_energy = 0.0;    // J
+  double highest_energy = 0.0;  // J
   std::vector<Vec3> start_centre;               // of each object
   std::vector<std::vector<PointMotion>> start;  // of each object's points
   std::vector<std::vector<double>> masses;      // likewise, kg
@@ -144,7 +152,18 @@ struct Simulation::State {
       sample.objects.push_back({centre, rotation});
     }
     samples.push_back(std::move(sample));
-    for (const bullet::PieceView& piece : stage.co_simulation().pieces()) watch(piece);
+    double energy = 0.0;
+    for (const bullet::PieceView& piece : stage.co_simulation().pieces()) {
+      watch(piece);
+      energy += energy_of(piece.motion);
+    }
+    if (samples.size() == 1) start_energy = energy;
+    highest_energy = std::max(highest_energy, energy);
+  }
+
+  // J, without vibration and what springs store: both only ever lower the rest.
+  double energy_of(const RigidMotion& piece) const {
+    return piece.kinetic_energy() - piece.mass * scene.gravity.dot(piece.centre);
   }
 
   // Falling from where it was explains v^2 / 2 + g h; what exceeds it came out of nowhere.
@@ -247,6 +266,14 @@ Snapshot Simulation::snapshot() const {
       const auto corner = static_cast<std::size_t>(triangle.corners[0]);
       body.flexible.push_back(flexible[body.surface.source_point[corner].index()]);
     }
+    if (has_strands(state_->scene.objects[o])) {
+      const PhysicalModel model = limber.model(o);
+      for (const Strand& strand : strands(model)) {
+        body.strands.push_back({model.geometry.points[strand.a], model.geometry.points[strand.b],
+                                strand.radius, model.parts[strand.subobject].surface,
+                                flexible[strand.a.index()]});
+      }
+    }
     snapshot.bodies.push_back(std::move(body));
   }
   for (std::size_t b = 0; b < state_->boxes.size(); ++b) {
@@ -289,6 +316,8 @@ RunResult Simulation::result() const {
   result.impact_speed_m_s = state_->impact_speed();
   result.fastest_piece_rel = state_->fastest_piece_rel;
   result.highest_rise_m = state_->highest_rise;
+  result.highest_energy_rel =
+      state_->start_energy > 0.0 ? state_->highest_energy / state_->start_energy : 0.0;
   result.state_hash = limber.state_hash();
   result.ledger = totals_of(limber);
   for (const bullet::SwitchRecord& record : limber.switches()) {

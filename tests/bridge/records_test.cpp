@@ -91,6 +91,7 @@ TEST(BreakRecords, NameEdgeCellAndPiece) {
   simulation.add(authored);
   world.run(0.5, kTick);
   const PhysicalModel model = simulation.model(0);
+  const IndexRows cells_of = edge_cells(authored.geometry);
   ASSERT_FALSE(simulation.breaks().empty());
   double last = 0.0;
   for (const BreakRecord& record : simulation.breaks()) {
@@ -100,8 +101,8 @@ TEST(BreakRecords, NameEdgeCellAndPiece) {
     EXPECT_TRUE(model.edges[EdgeId(record.edge)].broken);
     if (record.cell < 0) continue;
     EXPECT_FALSE(model.cells[CellId(record.cell)].valid);
-    const auto& cells = authored.geometry.edge_cells[EdgeId(record.edge)];
-    EXPECT_TRUE(std::find(cells.begin(), cells.end(), CellId(record.cell)) != cells.end());
+    const auto cells = cells_of[record.edge];
+    EXPECT_TRUE(std::find(cells.begin(), cells.end(), record.cell) != cells.end());
   }
 }
 

@@ -72,17 +72,5 @@ TEST(Integrators, GiveACouplingsImpulseInFull) {
   }
 }
 
-TEST(PinnedPoints, StayAndShowWhatTheyCarry) {
-  PhysicalModel model = test::chain({.points = 3, .along = -Vec3::UnitY()});
-  model.points[PointId(std::size_t{0})].pinned = true;
-  for (EdgeAttributes& edge : model.edges) edge.damping = 20.0;
-  Lattice lattice = test::lattice_of({model});
-  const Vec3 at = lattice.motion[0].position;
-  TimeOperator(lattice).advance(20000, 1e-3, {.gravity = {0.0, -9.81, 0.0}});
-  EXPECT_EQ(lattice.motion[0].position, at);
-  EXPECT_NEAR(lattice.force[0].y(), -3.0 * 9.81, 1e-6);  // its own weight and that of the others
-  EXPECT_NEAR(lattice.motion[1].position.y() - at.y(), -1.0 - 2.0 * 9.81 / 100.0, 1e-8);
-}
-
 }  // namespace
 }  // namespace limber

@@ -2,9 +2,12 @@
 
 #include <rapidcheck/gtest.h>
 
+#include <optional>
 #include <vector>
 
+#include "core/model/errors.h"
 #include "core/model/physical_model.h"
+#include "core/operators/gluing_operator.h"
 #include "tests/support/blocks.h"
 
 // Random values for properties; to be called from inside of one.
@@ -41,6 +44,16 @@ inline std::vector<EdgeId> ids(const std::vector<std::int32_t>& indices) {
   std::vector<EdgeId> edges;
   for (std::int32_t i : indices) edges.push_back(EdgeId(std::size_t(i)));
   return edges;
+}
+
+// Nothing where no points are near enough, or some coincide.
+inline std::optional<GlueResult> try_to_glue(const PhysicalModel& a, const PhysicalModel& b,
+                                             const GlueBond& bond) {
+  try {
+    return glue(a, b, bond);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace limber::test

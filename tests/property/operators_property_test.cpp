@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/model/errors.h"
 #include "core/model/validate.h"
 #include "core/operators/boundary_operator.h"
 #include "core/operators/breaking_operator.h"
@@ -24,6 +23,7 @@ using test::ids;
 using test::random_edges;
 using test::random_shape;
 using test::random_vector;
+using test::try_to_glue;
 using test::uniform;
 
 template <class T>
@@ -120,15 +120,6 @@ RC_GTEST_PROP(BreakingProperty, SheetsLoseTheSameFacesStepByStep, ()) {
   RC_ASSERT(same(state, breaking_state(m, topology)));
   const auto seen = std::count(state.face_external.begin(), state.face_external.end(), 1);
   RC_ASSERT(static_cast<std::size_t>(seen) == boundary(m).triangles.size());
-}
-
-std::optional<GlueResult> try_to_glue(const PhysicalModel& a, const PhysicalModel& b,
-                                      const GlueBond& bond) {
-  try {
-    return glue(a, b, bond);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
 }
 
 std::size_t pairs_counted_one_by_one(const PhysicalModel& a, const PhysicalModel& b,

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <optional>
 
-#include "core/model/errors.h"
 #include "core/model/validate.h"
 #include "core/modeller/cubic_lattice.h"
 #include "core/operators/boundary_operator.h"
@@ -21,8 +20,11 @@
 namespace limber {
 namespace {
 
+using test::angular_momentum;
 using test::coin;
+using test::momentum;
 using test::random_vector;
+using test::try_to_glue;
 using test::uniform;
 
 // Particles, ropes and sheets as often as blocks; families of springs as they come.
@@ -38,20 +40,6 @@ PhysicalModel random_object(const std::string& name) {
   model.parts[0].values["temperature"] = uniform(0.0, 1000.0);
   for (PointAttributes& p : model.points) p.velocity = random_vector(2.0);
   return model;
-}
-
-Vec3 momentum(const PhysicalModel& m) {
-  Vec3 sum = Vec3::Zero();
-  for (const PointAttributes& p : m.points) sum += p.mass * p.velocity;
-  return sum;
-}
-
-// About the origin, kg m^2/s.
-Vec3 angular_momentum(const PhysicalModel& m) {
-  Vec3 sum = Vec3::Zero();
-  for (PointId p : ids_of(m.points))
-    sum += m.points[p].mass * m.geometry.points[p].cross(m.points[p].velocity);
-  return sum;
 }
 
 // What the operators must hand on.
@@ -112,15 +100,6 @@ void place_somewhere(PhysicalModel& m, Books& books) {
   place(m, rotation, shift);
   books.momentum = rotation * books.momentum;
   books.angular_momentum = rotation * books.angular_momentum + shift.cross(books.momentum);
-}
-
-std::optional<GlueResult> try_to_glue(const PhysicalModel& a, const PhysicalModel& b,
-                                      const GlueBond& bond) {
-  try {
-    return glue(a, b, bond);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
 }
 
 int boundary_euler(const PhysicalModel& m) {

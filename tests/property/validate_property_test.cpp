@@ -35,7 +35,7 @@ T& any_of(std::vector<T>& items) {
 
 void spoil_an_index(GeometricModel& g) {
   const std::int32_t bad = random_bad_index();
-  switch (*rc::gen::inRange(0, 9)) {
+  switch (*rc::gen::inRange(0, 8)) {
     case 0:
       any_of(g.edges).a.value = bad;
       return;
@@ -55,9 +55,6 @@ void spoil_an_index(GeometricModel& g) {
       any_of(any_of(g.cells).faces).value = bad;
       return;
     case 6:
-      any_of(any_of(g.edge_cells)).value = bad;
-      return;
-    case 7:
       any_of(g.subobjects).points.begin = bad;
       return;
     default:
@@ -125,7 +122,7 @@ RC_GTEST_PROP(ValidateProperty, FindsEveryBadIndexAndNumber, ()) {
 RC_GTEST_PROP(ValidateProperty, FindsEveryWrongSize, ()) {
   PhysicalModel m = random_model();
   const std::size_t n = *rc::gen::inRange<std::size_t>(0, 5);
-  switch (*rc::gen::inRange(0, 8)) {
+  switch (*rc::gen::inRange(0, 7)) {
     case 0:
       m.geometry.points.resize(n, Vec3::Zero());
       break;
@@ -136,15 +133,12 @@ RC_GTEST_PROP(ValidateProperty, FindsEveryWrongSize, ()) {
       m.geometry.faces.resize(n);
       break;
     case 3:
-      m.geometry.edge_cells.resize(n);
-      break;
-    case 4:
       m.points.resize(n);
       break;
-    case 5:
+    case 4:
       m.edges.resize(n);
       break;
-    case 6:
+    case 5:
       m.faces.resize(n);
       break;
     default:

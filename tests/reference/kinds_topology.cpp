@@ -166,7 +166,8 @@ Json break_topology(const Case& c) {
   for (const Json& ends : c.params.at("break_edges")) {
     marked.push_back(edge_between(model, c.params.at("cells").get<Cells>(), ends));
   }
-  Json counts = {{"n_cells_sharing_first_edge", model.geometry.edge_cells[marked.at(0)].size()}};
+  const IndexRows cells_of = edge_cells(model.geometry);
+  Json counts = {{"n_cells_sharing_first_edge", cells_of[marked.at(0).index()].size()}};
   const int before = valid_cells(model);
   count(model, "initial_", counts);
   for (EdgeId edge : marked) break_edges(model, std::array{edge});

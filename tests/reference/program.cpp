@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "core/model/errors.h"
-#include "demos/cli/atomic_file.h"
+#include "core/storage/atomic_file.h"
 #include "tests/reference/runner.h"
 
 namespace limber::reference {
@@ -58,8 +58,8 @@ int program(int argc, const char* const* argv, std::ostream& out, std::ostream& 
   try {
     app.parse(argc, argv);
     const std::vector<CaseRecord> cases = read_cases(options.cases);
-    demos::require_writable(options.results);
-    demos::write_file_atomically(options.results, run_all(cases, err).dump(1) + "\n");
+    require_writable(options.results);
+    write_file_atomically(options.results, run_all(cases, err).dump(1) + "\n");
     return 0;
   } catch (const CLI::CallForHelp&) {
     out << app.help();

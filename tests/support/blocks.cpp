@@ -82,6 +82,14 @@ PhysicalModel block(const BlockShape& shape) {
   return with_plausible_attributes(block_geometry(shape), shape.name);
 }
 
+PhysicalModel uneven_block(std::array<int, 3> cells) {
+  PhysicalModel model = block({.cells = cells});
+  int i = 0;
+  for (PointAttributes& p : model.points) p.mass = 0.5 + (i++ * 7 % 11) / 5.0;
+  for (EdgeAttributes& e : model.edges) e.stiffness = 10.0 + (i++ * 5 % 13) * 30.0;
+  return model;
+}
+
 EdgeId block_edge(const PhysicalModel& model, const BlockShape& shape, std::array<int, 3> from,
                   std::array<int, 3> to) {
   const PointId p = block_point(shape, from), q = block_point(shape, to);

@@ -31,6 +31,9 @@ GeometricModel block_geometry(const BlockShape& shape);
 // The same with plausible attributes: 1 kg a point, 100 N/m, 1 N s/m, breaking at 0.1 m.
 PhysicalModel block(const BlockShape& shape);
 
+// The same with masses and stiffnesses that differ from point to point and edge to edge.
+PhysicalModel uneven_block(std::array<int, 3> cells);
+
 PointId block_point(const BlockShape& shape, std::array<int, 3> at);
 
 // The edge between two points of the block; fails the test when there is none.

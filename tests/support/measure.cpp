@@ -145,6 +145,19 @@ int unmatched_sides(const SurfaceModel& surface) {
       std::count_if(excess.begin(), excess.end(), [](const auto& e) { return e.second > 0; }));
 }
 
+Vec3 momentum(const PhysicalModel& m) {
+  Vec3 sum = Vec3::Zero();
+  for (const PointAttributes& p : m.points) sum += p.mass * p.velocity;
+  return sum;
+}
+
+Vec3 angular_momentum(const PhysicalModel& m) {
+  Vec3 sum = Vec3::Zero();
+  for (PointId p : ids_of(m.points))
+    sum += m.points[p].mass * m.geometry.points[p].cross(m.points[p].velocity);
+  return sum;
+}
+
 double enclosed_volume(const SurfaceModel& surface) {
   double six_volumes = 0.0;
   for (const SurfaceTriangle& t : surface.triangles) {

@@ -16,6 +16,9 @@ std::map<std::string, int> topology_counts(const PhysicalModel& model);
 // consistently oriented surface.
 int unmatched_sides(const SurfaceModel& surface);
 
+Vec3 momentum(const PhysicalModel& model);          // kg m/s
+Vec3 angular_momentum(const PhysicalModel& model);  // about the origin, kg m^2/s
+
 // By the divergence theorem, m^3.
 double enclosed_volume(const SurfaceModel& surface);
 

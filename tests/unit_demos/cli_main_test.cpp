@@ -8,11 +8,14 @@
 #include <sstream>
 
 #include "demos/scenes/scene.h"
-#include "tests/unit_demos/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace limber::demos {
 namespace {
 
+using test::contents;
+using test::TemporaryFolder;
+using test::write;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -103,14 +106,14 @@ TEST(CliMain, RefusesAnUnwritableTargetBeforeItRuns) {
 TEST(CliMain, NamesWhatWasTyped) {
   EXPECT_EQ(limber({"fly"}).err,
             "limber: command line: there is no command 'fly'; the commands are run, compare, "
-            "render\n");
+            "render, model, info\n");
   EXPECT_EQ(limber({"run", any_scene(), "--fly", "3"}).err,
             "limber: command line: '--fly 3' is not understood; `limber run --help` says what is "
             "possible\n");
 }
 
 TEST(CliMain, HasHelpForEveryCommand) {
-  for (const char* command : {"run", "compare", "render"}) {
+  for (const char* command : {"run", "compare", "render", "model", "info"}) {
     const Said said = limber({command, "--help"});
     EXPECT_EQ(said.code, 0);
     EXPECT_THAT(said.out, HasSubstr("Usage: limber " + std::string(command)));

@@ -10,12 +10,15 @@
 #include "demos/render/crease_normals.h"
 #include "demos/render/pov_mesh.h"
 #include "demos/render/pov_text.h"
-#include "tests/unit_demos/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace limber::demos {
 namespace {
 
 using testing::HasSubstr;
+using test::contents;
+using test::TemporaryFolder;
+using test::write;
 using testing::Not;
 
 // Two triangles that share the edge 0-1: the floor and a wall that leans by `bend` from it.

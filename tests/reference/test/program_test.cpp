@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/unit_demos/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 // The command line of limber_reference: what it refuses, and that one bad case does not take the
 // others with it.
@@ -45,7 +45,7 @@ class ReferenceProgram : public testing::Test {
 
   Json results() const { return Json::parse(std::ifstream(results_)); }
 
-  demos::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::string cases_ = folder_ / "cases.json";
   std::string results_ = folder_ / "results.json";
   std::ostringstream out_, err_;

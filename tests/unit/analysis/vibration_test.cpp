@@ -14,15 +14,7 @@ namespace limber {
 namespace {
 
 using std::numbers::pi;
-
-// Masses and stiffnesses that differ from point to point and edge to edge.
-PhysicalModel uneven_block(std::array<int, 3> cells) {
-  PhysicalModel model = test::block({.cells = cells});
-  int i = 0;
-  for (PointAttributes& p : model.points) p.mass = 0.5 + (i++ * 7 % 11) / 5.0;
-  for (EdgeAttributes& e : model.edges) e.stiffness = 10.0 + (i++ * 5 % 13) * 30.0;
-  return model;
-}
+using test::uneven_block;
 
 // Of a chain of n free points between two fixed ones, j = 1 .. n.
 double fixed_chain_frequency(double stiffness, double mass, int j, int n) {

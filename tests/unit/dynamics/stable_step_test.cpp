@@ -7,49 +7,25 @@
 #include <numbers>
 
 #include "tests/support/blocks.h"
+#include "tests/support/dense.h"
+#include "tests/support/lattices.h"
 
 namespace limber {
 namespace {
+
+using test::uneven_block;
 
 // Within the 0.5 % that the proof adds.
 constexpr double kSlack = 1.0051;
 
 PhysicalModel chain(int points, double stiffness, double mass) {
-  GeometricModelBuilder builder;
-  builder.begin_subobject("chain");
-  std::vector<PointId> ids;
-  for (int i = 0; i < points; ++i) ids.push_back(builder.add_point({0.1 * i, 0.0, 0.0}));
-  for (int i = 1; i < points; ++i) builder.edge(ids[i - 1], ids[i]);
-  PhysicalModel model = with_default_attributes(builder.finish(), "chain");
-  for (PointAttributes& p : model.points) p.mass = mass;
-  for (EdgeAttributes& e : model.edges) e.stiffness = stiffness;
-  return model;
-}
-
-// Values that differ from edge to edge and point to point.
-PhysicalModel uneven_block(std::array<int, 3> cells) {
-  PhysicalModel model = test::block({.cells = cells});
-  int i = 0;
-  for (PointAttributes& p : model.points) p.mass = 0.5 + (i++ * 7 % 11) / 5.0;
-  for (EdgeAttributes& e : model.edges) e.stiffness = 10.0 + (i++ * 5 % 13) * 30.0;
-  return model;
+  return test::chain({.points = points, .stiffness = stiffness, .mass = mass, .spacing = 0.1});
 }
 
 // By dense eigenvalues of the whole matrix.
 double exact_frequency(const PhysicalModel& model) {
-  const Eigen::Index n = 3 * static_cast<Eigen::Index>(model.points.size());
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n), M = Eigen::MatrixXd::Zero(n, n);
-  for (PointId p : ids_of(model.points))
-    M.block<3, 3>(3 * p.index(), 3 * p.index()).diagonal().setConstant(model.points[p].mass);
-  for (EdgeId e : ids_of(model.edges)) {
-    if (model.edges[e].broken) continue;
-    const auto [a, b] = model.geometry.edges[e];
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
-    const Vec3 d = (model.geometry.points[b] - model.geometry.points[a]).normalized();
-    row.segment<3>(3 * a.index()) = -d;
-    row.segment<3>(3 * b.index()) = d;
-    K += model.edges[e].stiffness * row * row.transpose();
-  }
+  const Eigen::MatrixXd K = test::dense_matrix(model, &EdgeAttributes::stiffness);
+  const Eigen::MatrixXd M = test::dense_masses(model).asDiagonal();
   return std::sqrt(
       Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M).eigenvalues().maxCoeff());
 }

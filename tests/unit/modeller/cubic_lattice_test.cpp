@@ -111,8 +111,9 @@ TEST(CubicLattice, SharedStiffnessIsASumOverCells) {
        {std::array{4, 3, 5}, std::array{2, 2, 2}, std::array{4, 1, 3}}) {
     const PhysicalModel m = cubic_lattice(lattice(points, kAll, CubicSurface::kShared));
     const bool sheet = points[1] == 1;
+    const IndexRows cells_of = edge_cells(m.geometry);
     for (EdgeId e : ids_of(m.edges)) {
-      const double cells = static_cast<double>(m.geometry.edge_cells[e].size());
+      const double cells = static_cast<double>(cells_of[e.index()].size());
       const double steps = std::round(std::pow(m.edges[e].rest_length / 0.1, 2));  // 1, 2 or 3
       const double of_a_cell = steps == 1.0   ? 1000.0 / (sheet ? 2.0 : 4.0)
                                : steps == 2.0 ? 800.0 / (sheet ? 1.0 : 2.0)

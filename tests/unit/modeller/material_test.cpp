@@ -35,29 +35,6 @@ Material rubber() {
   return m;
 }
 
-std::vector<Vec3> edge_vectors(const GeometricModel& g) {
-  std::vector<Vec3> vectors;
-  for (const Edge& e : g.edges) vectors.push_back(g.points[e.b] - g.points[e.a]);
-  return vectors;
-}
-
-// The edges of a prism over an equilateral triangle, both diagonals on each square.
-std::vector<Vec3> prism(double side, double height) {
-  const std::array<Vec3, 3> base = {Vec3(0, 0, 0), Vec3(side, 0, 0),
-                                    Vec3(side / 2, side * std::sqrt(3.0) / 2, 0)};
-  const Vec3 up(0, 0, height);
-  std::vector<Vec3> edges;
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 along = base[(i + 1) % 3] - base[i];
-    for (const Vec3& e : {along, along, up, Vec3(along + up), Vec3(along - up)}) edges.push_back(e);
-  }
-  return edges;
-}
-
-double prism_volume(double side, double height) {
-  return side * side * std::sqrt(3.0) / 4 * height;
-}
-
 // Sum over the edges at one point of k l^2 n_i^2 n_j^2 / (2 V): the tensor of a lattice that
 // repeats with the volume V.
 double modulus_at(const PhysicalModel& model, PointId point, int i, int j, double volume) {
@@ -70,51 +47,6 @@ double modulus_at(const PhysicalModel& model, PointId point, int i, int j, doubl
     sum += model.edges[e].stiffness * d[i] * d[i] * d[j] * d[j] / l2 / (2.0 * volume);
   }
   return sum;
-}
-
-// A cell's edges hold 1/4, 1/2 and 1 of the lattice's k1, k2, k3.
-TEST(IsotropicCellStiffness, OfACubeFulfilsTheConditionOfIsotropy) {
-  const GeometricModel g = block_geometry({.spacing = 0.1});
-  const std::vector<Vec3> edges = edge_vectors(g);
-  const std::vector<double> k = isotropic_cell_stiffness(edges, 1e-3, kModulus);
-  std::array<double, 4> lattice{};
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const int kind = static_cast<int>(std::lround(edges[e].squaredNorm() / 0.01));
-    const double share = kind == 1 ? 4.0 : kind == 2 ? 2.0 : 1.0;
-    const double before = std::exchange(lattice[kind], share * k[e]);
-    EXPECT_TRUE(before == 0.0 || std::abs(before - lattice[kind]) < 1e-9 * before);
-  }
-  const auto [unused, k1, k2, k3] = lattice;
-  EXPECT_NEAR(k1, k2 + 8.0 * k3 / 3.0, 1e-9 * k1);
-  EXPECT_NEAR((k2 + 4.0 * k3 / 3.0) / 0.1, 0.4 * kModulus, 1e-9 * kModulus);
-  EXPECT_LT(anisotropy(edges, k, 1e-3, kModulus), 1e-9);
-}
-
-TEST(IsotropicCellStiffness, OfAGoodPrismIsNearlyIsotropic) {
-  const std::vector<Vec3> edges = prism(0.0085, 0.006);
-  const double volume = prism_volume(0.0085, 0.006);
-  const std::vector<double> k = isotropic_cell_stiffness(edges, volume, kModulus);
-  EXPECT_LT(anisotropy(edges, k, volume, kModulus), 0.1);
-  for (double each : k) EXPECT_GE(each, 0.0);
-}
-
-// Trace of the tensor over E: 3 * 1.2 + 6 * 0.4 = 6.
-TEST(IsotropicCellStiffness, GivesEveryShapeTheExactBulkModulus) {
-  for (double height : {0.1, 0.5, 1.0, 3.0}) {
-    const std::vector<Vec3> edges = prism(1.0, height);
-    const double volume = prism_volume(1.0, height);
-    const std::vector<double> k = isotropic_cell_stiffness(edges, volume, kModulus);
-    double trace = 0.0;
-    for (std::size_t e = 0; e < k.size(); ++e) trace += k[e] * edges[e].squaredNorm() / volume;
-    EXPECT_NEAR(trace, 6.0 * kModulus, 1e-9 * kModulus);
-  }
-}
-
-TEST(Anisotropy, OfUnequalSpringsIsSeen) {
-  const std::vector<Vec3> edges = edge_vectors(block_geometry({}));
-  std::vector<double> k = isotropic_cell_stiffness(edges, 1.0, kModulus);
-  k[0] += 0.12 * kModulus;  // an edge along an axis: C_1111 grows by a tenth
-  EXPECT_NEAR(anisotropy(edges, k, 1.0, kModulus), 0.1, 1e-9);
 }
 
 TEST(WithMaterial, GivesALatticeTheWantedModuli) {

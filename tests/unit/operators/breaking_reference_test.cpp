@@ -79,7 +79,7 @@ TEST_P(BreakingReference, EveryColumnAgrees) {
   PhysicalModel model = test::block(shape_of(row));
   const std::vector<EdgeId> edges = edges_of(row, model);
   expect_counts(row, "initial_", model);
-  EXPECT_EQ(static_cast<int>(model.geometry.edge_cells[edges.front()].size()),
+  EXPECT_EQ(static_cast<int>(edge_cells(model.geometry)[edges.front().index()].size()),
             std::stoi(row.at("n_cells_sharing_first_edge")));
 
   const BreakingResult result = break_edges(model, edges);

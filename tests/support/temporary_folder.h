@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-namespace limber::demos {
+namespace limber::test {
 
 // A fresh folder for one test; tests run side by side.
 class TemporaryFolder {
@@ -42,4 +42,4 @@ inline void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-}  // namespace limber::demos
+}  // namespace limber::test

@@ -1,38 +1,18 @@
-#include "demos/cli/atomic_file.h"
+#include "core/storage/atomic_file.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
 
 #include "core/model/errors.h"
-#include "tests/unit_demos/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/tiny_disk.h"
 
-namespace limber::demos {
+namespace limber {
 namespace {
 
 namespace fs = std::filesystem;
-
-// As on a full disk: no file of this process may grow beyond a few bytes while this lives.
-class TinyDisk {
- public:
-  TinyDisk() {
-    old_handler_ = ::signal(SIGXFSZ, SIG_IGN);
-    ::getrlimit(RLIMIT_FSIZE, &old_);
-    rlimit tiny = old_;
-    tiny.rlim_cur = 10;
-    ::setrlimit(RLIMIT_FSIZE, &tiny);
-  }
-  ~TinyDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &old_);
-    ::signal(SIGXFSZ, old_handler_);
-  }
-  TinyDisk(const TinyDisk&) = delete;
-  TinyDisk& operator=(const TinyDisk&) = delete;
-
- private:
-  rlimit old_{};
-  sighandler_t old_handler_;
-};
+using test::contents;
+using test::TemporaryFolder;
+using test::write;
 
 TEST(WriteFileAtomically, WritesAndReplaces) {
   const TemporaryFolder folder;
@@ -46,7 +26,7 @@ TEST(WriteFileAtomically, LeavesTheOldFileWhenItFails) {
   const TemporaryFolder folder;
   write(folder / "a.json", "old");
   {
-    const TinyDisk disk;
+    const test::TinyDisk disk(10);
     EXPECT_THROW(write_file_atomically(folder / "a.json", "much longer than ten bytes"),
                  InputError);
   }
@@ -105,4 +85,4 @@ TEST(RequireWritable, SaysWhatToDo) {
 }
 
 }  // namespace
-}  // namespace limber::demos
+}  // namespace limber

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/model/skin.h"
+#include "core/modeller/hexahedral_cell.h"
+#include "core/modeller/voxels.h"
+
+namespace limber {
+
+// A cell of the lattice in the grid it was made from.
+struct LatticeCell {
+  CellPlace place = {0, 0, 0};
+  CellId cell;
+  HexahedronCorners corners;
+};
+
+struct EmbeddedSkin {
+  Skin skin;
+  double reach = 0.0;  // m, of the vertex farthest from the lattice
+};
+
+// Hangs every vertex of the mesh on the nearest cell, and every triangle on the cell nearest to its
+// centroid. `cells` in the order of the grid. Skin::cells are those that carry something or have a
+// side without neighbour. Throws InputError where a vertex is farther from the cells than
+// kMostSkinReach.
+EmbeddedSkin embedded_skin(const TriangleMesh& mesh, const VoxelGrid& grid,
+                           const std::vector<LatticeCell>& cells);
+
+}  // namespace limber

@@ -1,0 +1,194 @@
+#include "core/modeller/material_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/stable_step.h"
+#include "core/model/diagnostic_list.h"
+#include "core/modeller/cell_stiffness.h"
+
+namespace limber {
+namespace {
+
+constexpr double kPoissonOfLattice = 0.25;
+constexpr double kPoissonWorthANote = 0.02;
+constexpr double kAnisotropyOfACell = 0.15;
+constexpr double kAnisotropyOfHalfTheCells = 0.05;
+constexpr double kSlackShare = 0.01;
+
+struct ShapeQuality {
+  double anisotropy = 0.0;
+  double elongation = 1.0;
+};
+
+// The shape of one cell: its edges as vectors and its corners.
+struct Shape {
+  std::vector<Vec3> edges;
+  std::vector<Vec3> corners;
+};
+
+ShapeQuality quality_of(const Shape& shape) {
+  // Neither modulus nor volume has a say: stiffness is proportional to both.
+  const std::vector<double> k = isotropic_cell_stiffness(shape.edges, 1.0, 1.0);
+  return {anisotropy(shape.edges, k, 1.0, 1.0), elongation(shape.corners)};
+}
+
+void read_shape(const GeometricModel& geometry, const Cell& cell, Shape& shape,
+                std::vector<PointId>& points) {
+  shape.edges.clear();
+  shape.corners.clear();
+  points.clear();
+  for (EdgeId e : cell.edges) {
+    const auto [a, b] = geometry.edges[e];
+    shape.edges.push_back(geometry.points[b] - geometry.points[a]);
+    points.push_back(a);
+    points.push_back(b);
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  for (PointId p : points) shape.corners.push_back(geometry.points[p]);
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void judge_cells(const GeometricModel& geometry, MaterialReport& report) {
+  // Sides of boxes are known to rounding: what is as long as the limit is not beyond it.
+  constexpr double kLong = kLongestIsotropicBox * (1.0 + 1e-9);
+  Shape shape;
+  std::vector<PointId> points;
+  RoundedKey key;
+  RoundedCache<ShapeQuality> known;
+  std::vector<double> anisotropies;
+  for (std::size_t c = 0; c < geometry.cells.size(); ++c) {
+    if (!(cell_volume(geometry, CellId(c)) > 0.0)) continue;
+    read_shape(geometry, geometry.cells[CellId(c)], shape, points);
+    set_shape_key(shape.edges, key);
+    const ShapeQuality quality = known.get(key, [&] { return quality_of(shape); });
+    anisotropies.push_back(quality.anisotropy);
+    report.worst_anisotropy = std::max(report.worst_anisotropy, quality.anisotropy);
+    report.worst_elongation = std::max(report.worst_elongation, quality.elongation);
+    report.long_cells += quality.elongation > kLong;
+  }
+  report.solid_cells = anisotropies.size();
+  report.median_anisotropy = median(std::move(anisotropies));
+}
+
+void judge_edges(const PhysicalModel& model, MaterialReport& report) {
+  report.edges = model.edges.size();
+  for (const EdgeAttributes& edge : model.edges) report.slack_edges += edge.stiffness == 0.0;
+}
+
+// Largest c / k of the springs, s.
+double longest_damping_time(const PhysicalModel& model) {
+  double longest = 0.0;
+  for (const EdgeAttributes& edge : model.edges)
+    if (!edge.broken && edge.stiffness > 0.0)
+      longest = std::max(longest, edge.damping / edge.stiffness);
+  return longest;
+}
+
+void judge_cost(const PhysicalModel& model, MaterialReport& report) {
+  const FrequencyBound bound = highest_frequency(model);
+  report.softening = model.object.softening;
+  report.frequency_verified = bound.verified;
+  if (bound.omega_max == 0.0) return;
+  const double damping_ratio = longest_damping_time(model) * bound.omega_max / 2.0;
+  const double seconds = stable_step(bound.omega_max, damping_ratio);
+  report.substeps_per_tick = std::ceil(kReportTick / seconds);
+  report.substeps_per_tick_unsoftened =
+      std::ceil(kReportTick / seconds * std::sqrt(model.object.softening));
+}
+
+// "20 % too low"
+std::string how_far_off(double ratio) {
+  const double percent = 100.0 * std::abs(ratio - 1.0);
+  return say(std::round(10.0 * percent) / 10.0, " % too ", ratio < 1.0 ? "low" : "high");
+}
+
+std::string rounded(double value) { return say(std::round(1000.0 * value) / 1000.0); }
+
+using Notes = std::vector<Diagnostic>;
+
+void note_poisson(const std::string& name, std::span<const Material> materials, Notes& notes) {
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    const double nu = materials[m].poisson_ratio;
+    if (std::abs(nu - kPoissonOfLattice) <= kPoissonWorthANote) continue;
+    const PoissonMiss miss = poisson_miss(nu);
+    notes.push_back(
+        {say(name, ": material ", m),
+         say("its Poisson ratio is ", nu, ", that of springs is 0.25: the shear modulus ", "is ",
+             how_far_off(miss.shear_ratio), ", the bulk modulus ", how_far_off(miss.bulk_ratio)),
+         "stretching and bending are right, shear, twist and pressure are off by this"});
+  }
+}
+
+void note_cells(const std::string& name, const MaterialReport& report, Notes& notes) {
+  if (report.long_cells > 0) {
+    notes.push_back({name + ": cells",
+                     say(report.long_cells, " of ", report.solid_cells, " are longer than ",
+                         rounded(kLongestIsotropicBox), " times their width (the longest ",
+                         rounded(report.worst_elongation),
+                         " times): isotropy would take negative spring constants"),
+                     "make the cells more nearly cubes"});
+  }
+  if (report.worst_anisotropy > kAnisotropyOfACell ||
+      report.median_anisotropy > kAnisotropyOfHalfTheCells) {
+    notes.push_back({name + ": cells",
+                     say("their stiffness depends on direction: off by ",
+                         rounded(report.worst_anisotropy), " of C_1111 in the worst cell, by ",
+                         rounded(report.median_anisotropy), " in the median"),
+                     "make the cells more nearly cubes, or give them all their diagonals"});
+  }
+}
+
+void note_slack(const std::string& name, const MaterialReport& report, Notes& notes) {
+  const auto edges = static_cast<double>(report.edges);
+  if (!(static_cast<double>(report.slack_edges) > kSlackShare * edges)) return;
+  notes.push_back({name + ": edges",
+                   say(report.slack_edges, " of ", report.edges, " (",
+                       rounded(100.0 * static_cast<double>(report.slack_edges) / edges),
+                       " %) have stiffness 0: they carry nothing and still break"),
+                   "make the cells more nearly cubes or equilateral prisms"});
+}
+
+void note_softening(const std::string& name, const MaterialReport& report, Notes& notes) {
+  if (report.softening == 1.0) return;
+  notes.push_back({name + ": softening",
+                   say("S is ", report.softening, ": ", report.substeps_per_tick,
+                       " substeps a tick of 1/60 s instead of ",
+                       report.substeps_per_tick_unsoftened, "; the modulus is divided by S, ",
+                       "strains at break are multiplied by ", rounded(std::sqrt(report.softening))),
+                   "what impact speed breaks it stays; loads at rest bend it S times as far"});
+}
+
+}  // namespace
+
+PoissonMiss poisson_miss(double poisson_ratio) {
+  return {(1.0 + poisson_ratio) / (1.0 + kPoissonOfLattice),
+          (1.0 - 2.0 * poisson_ratio) / (1.0 - 2.0 * kPoissonOfLattice)};
+}
+
+MaterialReport material_report(const PhysicalModel& model) {
+  MaterialReport report;
+  judge_cells(model.geometry, report);
+  judge_edges(model, report);
+  judge_cost(model, report);
+  return report;
+}
+
+std::vector<Diagnostic> modelling_notes(const PhysicalModel& model, const MaterialReport& report,
+                                        std::span<const Material> materials) {
+  Notes notes;
+  note_poisson(model.name, materials, notes);
+  note_cells(model.name, report, notes);
+  note_slack(model.name, report, notes);
+  note_softening(model.name, report, notes);
+  return notes;
+}
+
+}  // namespace limber

@@ -1,0 +1,227 @@
+#include "core/modeller/particle_cloud.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "core/model/diagnostic_list.h"
+#include "core/model/errors.h"
+#include "core/modeller/shape_checks.h"
+
+namespace limber {
+namespace {
+
+const std::string kWhere = "particle cloud";
+
+struct Box {
+  Vec3 low, high;  // m
+
+  Vec3 size() const { return high - low; }
+  bool contains(const Vec3& p) const {
+    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+  }
+};
+
+void require_usable(const Box& box, const std::string& what, double distance_m) {
+  require_finite(kWhere, "a corner of the box", box.low);
+  require_finite(kWhere, "a corner of the box", box.high);
+  require_positive(kWhere, what, distance_m, "m");
+  if (!((box.size().array() > 0.0).all())) {
+    throw InputError(
+        {kWhere, "the box is empty", "give the lowest corner first, then the highest"});
+  }
+  require_affordable(kWhere, (box.size() / distance_m).prod(), "give a larger " + what);
+}
+
+Box box_around(const Vec3& centre_m, double radius_m) {
+  require_positive(kWhere, "radius", radius_m, "m");
+  return {centre_m - Vec3::Constant(radius_m), centre_m + Vec3::Constant(radius_m)};
+}
+
+// Whole spacings that fit into a length; one that misses by rounding fits.
+int fitting(double length, double spacing) {
+  return static_cast<int>(std::floor(length / spacing * (1.0 + 1e-12)));
+}
+
+// low + (0, 1, ..., n - 1) spacing along each axis.
+std::vector<Vec3> grid(const Vec3& low, std::array<int, 3> n, double spacing) {
+  std::vector<Vec3> places;
+  for (int z = 0; z < n[2]; ++z) {
+    for (int y = 0; y < n[1]; ++y) {
+      for (int x = 0; x < n[0]; ++x) places.push_back(low + spacing * Vec3(x, y, z));
+    }
+  }
+  return places;
+}
+
+// std::mt19937_64 is the same everywhere; the standard's distributions are not.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  // In [0, 1), 53 bits.
+  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
+
+  std::size_t index_below(std::size_t n) {
+    return std::min(n - 1, static_cast<std::size_t>(uniform() * static_cast<double>(n)));
+  }
+
+  Vec3 in_box(const Box& box) {
+    const double x = uniform(), y = uniform(), z = uniform();
+    return box.low + Vec3(x, y, z).cwiseProduct(box.size());
+  }
+
+  // Evenly in the shell between one and two distances from the origin.
+  Vec3 in_shell(double distance) {
+    const double radius = distance * std::cbrt(1.0 + 7.0 * uniform());
+    const double cosine = 2.0 * uniform() - 1.0;
+    const double azimuth = 2.0 * std::numbers::pi * uniform();
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    return radius * Vec3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+// Places with a least distance, found again by a grid whose cells (sides least distance / sqrt(3))
+// hold one place each.
+class SpacedPlaces {
+ public:
+  SpacedPlaces(const Box& box, double least_distance)
+      : box_(box), least_(least_distance), side_(least_distance / std::numbers::sqrt3) {
+    for (int axis = 0; axis < 3; ++axis) n_[axis] = 1 + int(box.size()[axis] / side_);
+    cell_.assign(std::size_t(n_[0]) * std::size_t(n_[1]) * std::size_t(n_[2]), -1);
+  }
+
+  const std::vector<Vec3>& places() const { return places_; }
+
+  bool has_room_at(const Vec3& p) const {
+    const std::array<int, 3> at = cell_of(p);
+    for (int z = std::max(0, at[2] - 2); z <= std::min(n_[2] - 1, at[2] + 2); ++z) {
+      for (int y = std::max(0, at[1] - 2); y <= std::min(n_[1] - 1, at[1] + 2); ++y) {
+        for (int x = std::max(0, at[0] - 2); x <= std::min(n_[0] - 1, at[0] + 2); ++x) {
+          const std::int32_t other = cell_[flat({x, y, z})];
+          if (other >= 0 && (places_[std::size_t(other)] - p).norm() < least_) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  void add(const Vec3& p) {
+    cell_[flat(cell_of(p))] = static_cast<std::int32_t>(places_.size());
+    places_.push_back(p);
+  }
+
+ private:
+  std::array<int, 3> cell_of(const Vec3& p) const {
+    std::array<int, 3> at;
+    for (int axis = 0; axis < 3; ++axis) {
+      at[axis] = std::clamp(int((p[axis] - box_.low[axis]) / side_), 0, n_[axis] - 1);
+    }
+    return at;
+  }
+
+  std::size_t flat(const std::array<int, 3>& at) const {
+    return std::size_t(at[0]) +
+           std::size_t(n_[0]) * (std::size_t(at[1]) + std::size_t(n_[1]) * std::size_t(at[2]));
+  }
+
+  Box box_;
+  double least_, side_;
+  std::array<int, 3> n_;
+  std::vector<std::int32_t> cell_;  // the place in each, or -1
+  std::vector<Vec3> places_;
+};
+
+constexpr int kTries = 30;  // Bridson's k
+
+// New places in the shell around one that is there, until none of kTries has room.
+std::vector<Vec3> scattered(const Box& box, const std::function<bool(const Vec3&)>& inside,
+                            const Vec3& first, double least_distance, Random& random) {
+  SpacedPlaces spaced(box, least_distance);
+  spaced.add(first);
+  for (std::vector<Vec3> active = {first}; !active.empty();) {
+    const std::size_t at = random.index_below(active.size());
+    bool found = false;
+    for (int i = 0; i < kTries && !found; ++i) {
+      const Vec3 p = active[at] + random.in_shell(least_distance);
+      found = inside(p) && spaced.has_room_at(p);
+      if (!found) continue;
+      spaced.add(p);
+      active.push_back(p);
+    }
+    if (found) continue;
+    active[at] = active.back();
+    active.pop_back();
+  }
+  return spaced.places();
+}
+
+}  // namespace
+
+GeometricModel particle_cloud(std::span<const Vec3> positions_m, const std::string& name) {
+  if (positions_m.empty()) throw InputError({name, "it has no points", "give at least one"});
+  GeometricModelBuilder builder;
+  builder.begin_subobject(name);
+  for (const Vec3& p : positions_m) {
+    require_finite(name, "a position", p);
+    builder.add_point(p);
+  }
+  return builder.finish();
+}
+
+std::vector<Vec3> grid_in_box(const Vec3& low_m, const Vec3& high_m, double spacing_m) {
+  const Box box{low_m, high_m};
+  require_usable(box, "spacing", spacing_m);
+  std::array<int, 3> n;
+  Vec3 first;
+  for (int axis = 0; axis < 3; ++axis) {
+    n[axis] = fitting(box.size()[axis], spacing_m);
+    first[axis] = 0.5 * (low_m[axis] + high_m[axis] - (n[axis] - 1) * spacing_m);
+    if (n[axis] > 0) continue;
+    throw InputError({kWhere,
+                      say("the box is ", box.size()[axis], " m long along axis ", axis,
+                          ", less than the spacing of ", spacing_m, " m"),
+                      "give a smaller spacing"});
+  }
+  return grid(first, n, spacing_m);
+}
+
+std::vector<Vec3> grid_in_sphere(const Vec3& centre_m, double radius_m, double spacing_m) {
+  const Box box = box_around(centre_m, radius_m);
+  require_usable(box, "spacing", spacing_m);
+  const int half = fitting(radius_m, spacing_m);
+  const int n = 2 * half + 1;
+  std::vector<Vec3> places = grid(Vec3::Constant(-half * spacing_m), {n, n, n}, spacing_m);
+  std::erase_if(places, [&](const Vec3& p) { return p.norm() > radius_m * (1.0 + 1e-12); });
+  for (Vec3& p : places) p += centre_m;
+  return places;
+}
+
+std::vector<Vec3> scattered_in_box(const Vec3& low_m, const Vec3& high_m, double least_distance_m,
+                                   std::uint64_t seed) {
+  const Box box{low_m, high_m};
+  require_usable(box, "least distance", least_distance_m);
+  Random random(seed);
+  const Vec3 first = random.in_box(box);
+  return scattered(
+      box, [&](const Vec3& p) { return box.contains(p); }, first, least_distance_m, random);
+}
+
+std::vector<Vec3> scattered_in_sphere(const Vec3& centre_m, double radius_m,
+                                      double least_distance_m, std::uint64_t seed) {
+  const Box box = box_around(centre_m, radius_m);
+  require_usable(box, "least distance", least_distance_m);
+  const auto inside = [&](const Vec3& p) { return (p - centre_m).norm() <= radius_m; };
+  Random random(seed);
+  Vec3 first = random.in_box(box);
+  while (!inside(first)) first = random.in_box(box);
+  return scattered(box, inside, first, least_distance_m, random);
+}
+
+}  // namespace limber
