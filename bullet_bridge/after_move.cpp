@@ -71,14 +71,16 @@ bool CoSimulation::Impl::becomes_debris(std::span<const std::int32_t> points) co
 }
 
 // P and L stay: the points go on with the velocities they have. Their bonds break.
-void CoSimulation::Impl::turn_to_debris(std::span<const std::int32_t> points) {
+void CoSimulation::Impl::turn_to_debris(std::span<const std::int32_t> points,
+                                        const std::optional<Vec3>& born_in) {
   std::vector<std::int32_t> bonds;
   for (std::int32_t p : points) {
     for (std::int32_t e : lattice_.point_edges[p]) {
       if (!lattice_.breaking.edge_broken[e]) bonds.push_back(e);
     }
     lattice_.role[p] = PointRole::kIdle;
-    if (lattice_.inverse_mass[p] > 0.0) debris_.add(p);  // a pinned one stays where it is
+    if (lattice_.inverse_mass[p] == 0.0) continue;  // a pinned one stays where it is
+    debris_.add(p, born_in.value_or(lattice_.motion[p].position));
   }
   counters_.particles += points.size();
   const BreakingResult broken = break_edges(lattice_.topology, lattice_.breaking, bonds);
@@ -126,9 +128,10 @@ void CoSimulation::Impl::split_broken_pieces() {
 void CoSimulation::Impl::split(const Piece& piece,
                                std::vector<std::vector<std::int32_t>> groups) {
   SplitRecord record{.time = time_, .object = piece.object, .piece = piece.id};
+  const Vec3 middle = rigid_motion(lattice_.motion, lattice_.mass, piece.points).centre;
   for (std::vector<std::int32_t>& points : groups) {
     if (becomes_debris(points)) {
-      turn_to_debris(points);
+      turn_to_debris(points, middle);
       record.particles += points.size();
     } else {
       Piece& part = add_piece(piece.object, std::move(points));

@@ -101,7 +101,9 @@ class CoSimulation::Impl : public TickHooks {
   std::vector<Piece*> flexible_pieces() const;
   std::vector<std::vector<std::int32_t>> connected_groups(const Piece& piece);
   bool becomes_debris(std::span<const std::int32_t> points) const;
-  void turn_to_debris(std::span<const std::int32_t> points);
+  // `born_in`: the middle of the piece they came off, if they did.
+  void turn_to_debris(std::span<const std::int32_t> points,
+                      const std::optional<Vec3>& born_in = {});
   Piece& add_piece(std::size_t object, std::vector<std::int32_t> points);
   void start(Piece& piece);
   void judge_impulse(Piece& piece, double dt);

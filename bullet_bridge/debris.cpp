@@ -46,6 +46,7 @@ double Debris::step(btDiscreteDynamicsWorld& world, Lattice& lattice,
                     double lifetime) {
   double retired = 0.0;
   for (Particle& particle : points_) {
+    if (particle.age == 0.0) lift_out(particle, world, lattice, ignored);
     if (!particle.resting) move(particle, world, lattice, ignored, dt);
     particle.age += dt;
     if (particle.age <= lifetime) continue;
@@ -54,6 +55,23 @@ double Debris::step(btDiscreteDynamicsWorld& world, Lattice& lattice,
   }
   std::erase_if(points_, [&](const Particle& particle) { return particle.age > lifetime; });
   return retired;
+}
+
+// Impacts press points into what they hit, and some break off there: a ray from inside finds nothing,
+// and the particle would fall for ever. On the straight line from the middle of the piece that it
+// came off to where it is, its way into a body nearby is the surface it was pressed into.
+void Debris::lift_out(const Particle& particle, btDiscreteDynamicsWorld& world, Lattice& lattice,
+                      const std::unordered_set<const btCollisionObject*>& ignored) const {
+  constexpr double kDeepest = 4.0;  // contact radii: what is farther lies between them, not around
+  PointMotion& point = lattice.motion[particle.point];
+  if (particle.born_in == point.position) return;
+  FirstHit hit(to_bullet(particle.born_in), to_bullet(point.position), ignored);
+  world.rayTest(hit.m_rayFromWorld, hit.m_rayToWorld, hit);
+  if (!hit.hasHit()) return;
+  const Vec3 surface = from_bullet(hit.m_hitPointWorld);
+  const double depth = (point.position - surface).norm();
+  if (depth > kDeepest * lattice.contact_radius[particle.point]) return;
+  point.position = surface + kLift * from_bullet(hit.m_hitNormalWorld).normalized();
 }
 
 void Debris::move(Particle& particle, btDiscreteDynamicsWorld& world, Lattice& lattice,

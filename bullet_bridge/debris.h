@@ -18,7 +18,10 @@ inline namespace LIMBER_BULLET_PRECISION {
 // the momentum that the particle loses.
 class Debris {
  public:
-  void add(std::int32_t point) { points_.push_back({point}); }
+  // `born_in`: the middle of the piece that it came off, m.
+  void add(std::int32_t point, const Vec3& born_in) {
+    points_.push_back({.point = point, .born_in = born_in});
+  }
   std::size_t size() const { return points_.size(); }
 
   // One tick for all: x += (v + v') dt / 2, v' = v + g dt, or to the first hit. Particles older
@@ -29,10 +32,13 @@ class Debris {
 
  private:
   struct Particle {
-    std::int32_t point;
+    std::int32_t point = 0;
+    Vec3 born_in = Vec3::Zero();
     bool resting = false;
     double age = 0.0;  // s
   };
+  void lift_out(const Particle& particle, btDiscreteDynamicsWorld& world, Lattice& lattice,
+                const std::unordered_set<const btCollisionObject*>& ignored) const;
   void move(Particle& particle, btDiscreteDynamicsWorld& world, Lattice& lattice,
             const std::unordered_set<const btCollisionObject*>& ignored, double dt) const;
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/model/errors.h"
 #include "core/storage/model_file.h"
 #include "demos/scenes/scenes.h"
 
@@ -19,9 +20,9 @@ Extent extent_of(const PhysicalModel& model) {
   return box;
 }
 
-// Sees the floor below the model and the model at its height.
-Camera camera_for(const Vec3& size, double height) {
-  const double shown = height + size.y() + 0.5 * size.norm();
+// Sees the floor below the model and the model at its height; zoomed, what happens at the floor.
+Camera camera_for(const Vec3& size, double height, double zoom) {
+  const double shown = (height + size.y() + 0.5 * size.norm()) / zoom;
   const Vec3 target(0.0, 0.45 * shown, 0.0);
   return {target + 2.2 * shown * Vec3(0.35, 0.25, 0.9), target, 32.0};
 }
@@ -30,12 +31,15 @@ Scene build(PhysicalModel model, const ParameterValues& values) {
   const Extent box = extent_of(model);
   const Vec3 middle = 0.5 * (box.low + box.high);
   const double height = values.at("height");
+  if (values.at("zoom") <= 0.0) {
+    throw InputError({"scene " + model.name + ": parameter zoom", "it is not above 0", "give 1 or so"});
+  }
   place(model, Mat3::Identity(), {-middle.x(), height - box.low.y(), -middle.z()});
   set_in_motion(model, {values.at("speed"), 0.0, 0.0}, {0.0, 0.0, -values.at("spin")});
   Scene scene;
   scene.name = model.name;
   scene.seconds = 3.0;
-  scene.camera = camera_for(box.high - box.low, height);
+  scene.camera = camera_for(box.high - box.low, height, values.at("zoom"));
   scene.objects.push_back(std::move(model));
   return scene;
 }
@@ -47,7 +51,8 @@ SceneEntry drop_of(const std::string& model_file) {
           "a model from a file falls on the floor",
           {{"height", 1.0, "m", "of the lowest point above the floor"},
            {"speed", 0.0, "m/s", "sideways"},
-           {"spin", 0.0, "rad/s", "forward"}},
+           {"spin", 0.0, "rad/s", "forward"},
+           {"zoom", 1.0, "", "of the camera, towards where it lands"}},
           [model_file](const ParameterValues& values) {
             return build(read_model(model_file), values);
           }};
