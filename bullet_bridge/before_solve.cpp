@@ -252,7 +252,7 @@ void CoSimulation::Impl::refuse_step(double substeps) const {
       [](const auto& a, const auto& b) { return a.largest_step < b.largest_step; });
   throw SimulationError(
       {stiffest->authored.name,
-       "a tick would need " + std::to_string(std::llround(substeps)) + " substeps",
+       "a tick would need " + std::to_string(std::llround(std::min(substeps, 1e15))) + " substeps",
        "soften the material, coarsen the lattice or raise most_substeps (" +
            std::to_string(settings_.most_substeps) + ")"});
 }
@@ -282,7 +282,7 @@ CoSimulation::Impl::Surroundings CoSimulation::Impl::surroundings_of(
 
 int CoSimulation::Impl::substeps_for(double dt) const {
   const double wanted = std::ceil(dt / (time_operator_.largest_step() * settings_.step_scale));
-  if (wanted > settings_.most_substeps) refuse_step(wanted);
+  if (!(wanted <= settings_.most_substeps)) refuse_step(wanted);  // nor NaN
   return std::max(1, static_cast<int>(wanted));
 }
 

@@ -60,21 +60,16 @@ double largest_eigenvalue(const Element& element) {
 
 // Everything that the eigenvalue depends on.
 void set_key(const Element& element, RoundedKey& key) {
-  double stiffest = 0.0;
-  for (const Element::Spring& s : element.springs) stiffest = std::max(stiffest, s.stiffness);
   const double direction = RoundedKey::quantum(1.0);
-  const double stiffness = RoundedKey::quantum(stiffest);
-  const double mass = RoundedKey::quantum(*std::ranges::max_element(element.mass));
   key.clear();
   key.add(static_cast<std::int64_t>(element.mass.size()));
-  key.add(std::ilogb(stiffness));
-  key.add(std::ilogb(mass));
-  for (double m : element.mass) key.add(m, mass);
+  // Each relative to itself: a light point beside a heavy one sets the frequency.
+  for (double m : element.mass) key.add_relative(m);
   for (const auto& [a, b, n, k] : element.springs) {
     key.add(a);
     key.add(b);
     for (int axis = 0; axis < 3; ++axis) key.add(n[axis], direction);
-    key.add(k, stiffness);
+    key.add_relative(k);
   }
 }
 

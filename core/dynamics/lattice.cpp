@@ -151,6 +151,7 @@ double pure_damping_rate(const PhysicalModel& model) {
 
 void set_step(LatticeObject& object, const PhysicalModel& model) {
   object.contact_frequency = contact_frequency_of(model);
+  object.contacts_at_once = model.edges.empty() ? kContactsOfAGrain : 1.0;
   object.spring_frequency = highest_frequency(model).omega_max;
   object.spring_damping =
       largest_damping_time(model) * object.spring_frequency * object.spring_frequency +
@@ -260,10 +261,12 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   return lattice.objects.size() - 1;
 }
 
-// K <= K_springs + omega_c^2 + k / m (Weyl), C <= beta K_springs + c / m.
+// K <= K_springs + n omega_c^2 + k / m (Weyl; Gershgorin for n contacts of points of one mass, each
+// omega_c^2 m / 2), C <= beta K_springs + c / m.
 double largest_step(const LatticeObject& object, double stiffness, double damping) {
   const double omega = std::sqrt(object.spring_frequency * object.spring_frequency +
-                                 object.contact_frequency * object.contact_frequency +
+                                 object.contacts_at_once * object.contact_frequency *
+                                     object.contact_frequency +
                                  stiffness / object.least_mass);
   const double rate = object.spring_damping + damping / object.least_mass;
   // Dampers alone: v' = (1 - C dt) v is stable to C dt = 2.

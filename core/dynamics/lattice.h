@@ -41,6 +41,7 @@ struct LatticeObject {
   double spring_frequency = 0.0;   // rad/s, bound on the highest of its springs
   double spring_damping = 0.0;     // 1/s, the damping rate 2 zeta omega there
   double contact_frequency = 0.0;  // omega_c of penalty.h, rad/s
+  double contacts_at_once = 1.0;   // on a point, that the step has to bear
   double least_mass = 0.0;         // kg, of a point
   double largest_step = 0.0;       // s, stable with its springs and contacts
 };
@@ -115,6 +116,10 @@ inline constexpr double kContactStiffnessShare = 0.1;
 // a. Its lowest points bear columns of H / a points each, so that they sink by g (H / a) /
 // omega_c^2.
 inline constexpr double kContactSinkShare = 0.05;
+// Balls of one size touch at most this many others, and each grain's contacts are its only springs;
+// the points of a lattice touch one or two, and are held by stiffer springs.
+inline constexpr double kContactsOfAGrain = 12.0;
+
 inline constexpr double kStandardGravity = 9.80665;  // m/s^2
 
 }  // namespace limber

@@ -22,6 +22,14 @@ class RoundedKey {
   void add(std::int64_t number) { numbers_.push_back(number); }
   void add(double value, double quantum) { add(std::int64_t{std::llrint(value / quantum)}); }
 
+  // Rounded relative to itself: its exponent and the leading 40 bits.
+  void add_relative(double value) {
+    int exponent = 0;
+    const double mantissa = std::frexp(value, &exponent);
+    add(exponent);
+    add(std::int64_t{std::llrint(std::ldexp(mantissa, 40))});
+  }
+
   bool operator==(const RoundedKey&) const = default;
 
   struct Hash {

@@ -25,7 +25,7 @@ class NearestCell {
 
   // Cubes of cells around the place, from inside out: those of ring r are r - 1 cells away or more.
   Found of(const Vec3& x) const {
-    const CellPlace middle = grid_.around(x);
+    const VoxelIndex middle = grid_.around(x);
     Found best;
     for (std::int32_t ring = 0; ring <= kMostSkinReach + 1.0; ++ring) {
       if (best.distance <= (ring - 1) * grid_.spacing) break;
@@ -34,10 +34,10 @@ class NearestCell {
     return best;
   }
 
-  bool is_surrounded(const CellPlace& p) const {
+  bool is_surrounded(const VoxelIndex& p) const {
     for (std::size_t k = 0; k < 3; ++k)
       for (std::int32_t step : {-1, 1}) {
-        CellPlace neighbour = p;
+        VoxelIndex neighbour = p;
         neighbour[k] += step;
         if (!grid_.contains(neighbour) || at_[grid_.index(neighbour)] < 0) return false;
       }
@@ -45,7 +45,7 @@ class NearestCell {
   }
 
  private:
-  void look_at_ring(const Vec3& x, const CellPlace& middle, std::int32_t ring, Found& best) const {
+  void look_at_ring(const Vec3& x, const VoxelIndex& middle, std::int32_t ring, Found& best) const {
     for (std::int32_t dz = -ring; dz <= ring; ++dz)
       for (std::int32_t dy = -ring; dy <= ring; ++dy) {
         const bool whole_row = std::abs(dz) == ring || std::abs(dy) == ring;
@@ -54,7 +54,7 @@ class NearestCell {
       }
   }
 
-  void look_at(const Vec3& x, const CellPlace& place, Found& best) const {
+  void look_at(const Vec3& x, const VoxelIndex& place, Found& best) const {
     if (!grid_.contains(place)) return;
     const std::int32_t cell = at_[grid_.index(place)];
     if (cell < 0) return;

@@ -11,7 +11,7 @@ namespace limber {
 
 // A cell of the lattice in the grid it was made from.
 struct LatticeCell {
-  CellPlace place = {0, 0, 0};
+  VoxelIndex place = {0, 0, 0};
   CellId cell;
   HexahedronCorners corners;
 };

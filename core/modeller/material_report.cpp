@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "core/dynamics/stable_step.h"
 #include "core/model/diagnostic_list.h"
@@ -10,7 +12,8 @@
 namespace limber {
 namespace {
 
-constexpr double kPoissonOfLattice = 0.25;
+constexpr double kPoissonOfSolid = 0.25;
+constexpr double kPoissonOfSheet = 1.0 / 3.0;
 constexpr double kPoissonWorthANote = 0.02;
 constexpr double kAnisotropyOfACell = 0.15;
 constexpr double kAnisotropyOfHalfTheCells = 0.05;
@@ -56,6 +59,21 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+// Faces of a closed cell sum up to nothing, those of a flat one to its area. (The volume of a flat
+// cell depends on where the origin is.)
+bool is_sheet_cell(const GeometricModel& geometry, const Cell& cell) {
+  Vec3 sum = Vec3::Zero();
+  double total = 0.0;
+  for (FaceId f : cell.faces) {
+    const auto& [a, b, c] = geometry.faces[f].corners;
+    const Vec3& origin = geometry.points[a];
+    const Vec3 area = (geometry.points[b] - origin).cross(geometry.points[c] - origin);
+    sum += area;
+    total += area.norm();
+  }
+  return sum.norm() > 0.5 * total;
+}
+
 void judge_cells(const GeometricModel& geometry, MaterialReport& report) {
   // Sides of boxes are known to rounding: what is as long as the limit is not beyond it.
   constexpr double kLong = kLongestIsotropicBox * (1.0 + 1e-9);
@@ -65,8 +83,11 @@ void judge_cells(const GeometricModel& geometry, MaterialReport& report) {
   RoundedCache<ShapeQuality> known;
   std::vector<double> anisotropies;
   for (std::size_t c = 0; c < geometry.cells.size(); ++c) {
-    if (!(cell_volume(geometry, CellId(c)) > 0.0)) continue;
-    read_shape(geometry, geometry.cells[CellId(c)], shape, points);
+    const Cell& cell = geometry.cells[CellId(c)];
+    const bool is_sheet = is_sheet_cell(geometry, cell);
+    report.sheet_cells += is_sheet;
+    if (is_sheet || !(cell_volume(geometry, CellId(c)) > 0.0)) continue;
+    read_shape(geometry, cell, shape, points);
     set_shape_key(shape.edges, key);
     const ShapeQuality quality = known.get(key, [&] { return quality_of(shape); });
     anisotropies.push_back(quality.anisotropy);
@@ -110,20 +131,59 @@ std::string how_far_off(double ratio) {
   return say(std::round(10.0 * percent) / 10.0, " % too ", ratio < 1.0 ? "low" : "high");
 }
 
-std::string rounded(double value) { return say(std::round(1000.0 * value) / 1000.0); }
+// For people: three decimals, from a thousand on whole numbers, never an exponent.
+std::string rounded(double value) {
+  std::ostringstream out;
+  if (std::abs(value) >= 1000.0) {
+    out << std::fixed << std::setprecision(0) << value;
+  } else {
+    out << std::setprecision(4) << std::round(1000.0 * value) / 1000.0;
+  }
+  return out.str();
+}
 
 using Notes = std::vector<Diagnostic>;
 
-void note_poisson(const std::string& name, std::span<const Material> materials, Notes& notes) {
+// What a lattice of this dimension can do, in words.
+struct Elasticity {
+  double poisson_ratio;
+  PoissonMiss (*miss)(double);
+  const char* of;
+  const char* ratio;
+  const char* bulk;
+  const char* effect;
+};
+
+constexpr Elasticity kSolid = {
+    kPoissonOfSolid, poisson_miss,
+    "springs",       "0.25",
+    "bulk modulus",  "stretching and bending are right, shear, twist and pressure are off by this"};
+constexpr Elasticity kSheet = {
+    kPoissonOfSheet,
+    sheet_poisson_miss,
+    "springs in a sheet",
+    "1/3",
+    "modulus against a change of area",
+    "stretching is right, shear and stretching in all directions at once are off by this"};
+
+void note_poisson(const std::string& where, double nu, const Elasticity& lattice, Notes& notes) {
+  if (std::abs(nu - lattice.poisson_ratio) <= kPoissonWorthANote) return;
+  const PoissonMiss miss = lattice.miss(nu);
+  notes.push_back({where,
+                   say("its Poisson ratio is ", rounded(nu), ", that of ", lattice.of, " is ",
+                       lattice.ratio, ": the shear modulus is ", how_far_off(miss.shear_ratio),
+                       ", the ", lattice.bulk, " ", how_far_off(miss.bulk_ratio)),
+                   lattice.effect});
+}
+
+void note_materials(const std::string& name, const MaterialReport& report,
+                    std::span<const Material> materials, Notes& notes) {
   for (std::size_t m = 0; m < materials.size(); ++m) {
     const double nu = materials[m].poisson_ratio;
-    if (std::abs(nu - kPoissonOfLattice) <= kPoissonWorthANote) continue;
-    const PoissonMiss miss = poisson_miss(nu);
-    notes.push_back(
-        {say(name, ": material ", m),
-         say("its Poisson ratio is ", nu, ", that of springs is 0.25: the shear modulus ", "is ",
-             how_far_off(miss.shear_ratio), ", the bulk modulus ", how_far_off(miss.bulk_ratio)),
-         "stretching and bending are right, shear, twist and pressure are off by this"});
+    const std::string where =
+        materials.size() == 1 ? name + ": material" : say(name, ": material ", m);
+    if (report.solid_cells > 0) note_poisson(where, nu, kSolid, notes);
+    if (report.sheet_cells > 0) note_poisson(where, nu, kSheet, notes);
   }
 }
 
@@ -158,19 +218,25 @@ void note_slack(const std::string& name, const MaterialReport& report, Notes& no
 
 void note_softening(const std::string& name, const MaterialReport& report, Notes& notes) {
   if (report.softening == 1.0) return;
-  notes.push_back({name + ": softening",
-                   say("S is ", report.softening, ": ", report.substeps_per_tick,
-                       " substeps a tick of 1/60 s instead of ",
-                       report.substeps_per_tick_unsoftened, "; the modulus is divided by S, ",
-                       "strains at break are multiplied by ", rounded(std::sqrt(report.softening))),
-                   "what impact speed breaks it stays; loads at rest bend it S times as far"});
+  notes.push_back(
+      {name + ": softening",
+       say("S is ", rounded(report.softening), ": ", rounded(report.substeps_per_tick),
+           " substeps a tick of 1/60 s instead of ", rounded(report.substeps_per_tick_unsoftened),
+           "; the modulus is divided by S, ", "strains at break are multiplied by ",
+           rounded(std::sqrt(report.softening))),
+       "what impact speed breaks it stays; loads at rest bend it S times as far"});
 }
 
 }  // namespace
 
 PoissonMiss poisson_miss(double poisson_ratio) {
-  return {(1.0 + poisson_ratio) / (1.0 + kPoissonOfLattice),
-          (1.0 - 2.0 * poisson_ratio) / (1.0 - 2.0 * kPoissonOfLattice)};
+  return {(1.0 + poisson_ratio) / (1.0 + kPoissonOfSolid),
+          (1.0 - 2.0 * poisson_ratio) / (1.0 - 2.0 * kPoissonOfSolid)};
+}
+
+PoissonMiss sheet_poisson_miss(double poisson_ratio) {
+  return {(1.0 + poisson_ratio) / (1.0 + kPoissonOfSheet),
+          (1.0 - poisson_ratio) / (1.0 - kPoissonOfSheet)};
 }
 
 MaterialReport material_report(const PhysicalModel& model) {
@@ -184,7 +250,7 @@ MaterialReport material_report(const PhysicalModel& model) {
 std::vector<Diagnostic> modelling_notes(const PhysicalModel& model, const MaterialReport& report,
                                         std::span<const Material> materials) {
   Notes notes;
-  note_poisson(model.name, materials, notes);
+  note_materials(model.name, report, materials, notes);
   note_cells(model.name, report, notes);
   note_slack(model.name, report, notes);
   note_softening(model.name, report, notes);

@@ -18,11 +18,17 @@ struct PoissonMiss {
 };
 PoissonMiss poisson_miss(double poisson_ratio);
 
+// The same of a sheet, in plane stress. The Poisson ratio of its lattice is 1/3 (see
+// isotropic_sheet_stiffness()). For bulk read area: its modulus is E / (2 (1 - nu)), the tension
+// that is the same in all directions of the plane over the change of area that it makes.
+PoissonMiss sheet_poisson_miss(double poisson_ratio);
+
 // How well the lattice of a model can be what it stands for, and what that costs.
 struct MaterialReport {
   // Of the cells that enclose a volume: what the springs that with_material() fits to their shapes
   // leave in anisotropy(), 0 for a cube; and elongation(), length over width.
   std::size_t solid_cells = 0;
+  std::size_t sheet_cells = 0;  // those that do not: 2-D
   double worst_anisotropy = 0.0;
   double median_anisotropy = 0.0;
   double worst_elongation = 1.0;
@@ -45,7 +51,8 @@ inline constexpr double kReportTick = 1.0 / 60.0;  // s
 MaterialReport material_report(const PhysicalModel& model);
 
 // What a user should know, with the numbers; empty when there is nothing to say. Of materials
-// whose Poisson ratio is more than 0.02 off 1/4; of cells longer than springs can make up for; of
+// whose Poisson ratio is more than 0.02 off that of the lattice (1/4 of solid cells, 1/3 of sheets;
+// without cells there is no shear); of cells longer than springs can make up for; of
 // anisotropy above 0.15 in a cell, or 0.05 in half of them; of more than 1 % slack edges; of
 // softening.
 std::vector<Diagnostic> modelling_notes(const PhysicalModel& model, const MaterialReport& report,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/model/diagnostic_list.h"
+#include "core/model/disjoint_sets.h"
 #include "core/modeller/embedded_skin.h"
 #include "core/modeller/mesh_refinement.h"
 #include "core/modeller/mesh_repair.h"
@@ -14,10 +15,12 @@ namespace limber {
 namespace {
 
 constexpr double kMostOpenness = 0.25;    // of all directions, seen from inside
+constexpr double kSheetOpenness = 0.45;   // right behind a sheet it is a half
 constexpr double kMostAmbiguous = 0.3;    // ambiguous cells / surface cells
 constexpr double kFlat = 1e-6;            // mean thickness 2 V / A over the box's diagonal
 constexpr double kMostGridCells = 3.2e7;  // 9 bytes each
 constexpr double kSeam = 1e-6;            // missing share below which holes are but seams
+constexpr double kMostCopies = 0.05;      // share of the triangles
 constexpr double kMostLoose = 0.1;        // share of cells that only edges or points hold
 constexpr double kOverlap = 1.5;          // winding number where parts surely overlap
 
@@ -71,6 +74,15 @@ void note_repairs(const RepairedMesh& repaired, Work& work) {
               "dropped; no need to do anything");
 }
 
+// One triangle twice is an export's slip; many are what a reader makes of a file that breaks off.
+void require_few_copies(const RepairedMesh& repaired, std::size_t triangles, const Work& work) {
+  const std::size_t copies = repaired.doubled_triangles;
+  if (double(copies) <= kMostCopies * double(triangles)) return;
+  work.refuse(say(copies, " of ", triangles, " triangles are copies of others; more than ",
+                  percent(kMostCopies), " looks like a file that breaks off"),
+              "write the mesh anew, or remove the copies");
+}
+
 double missing_share(const Work& work) {
   const double missing = work.out.report.defects.missing_area;
   return missing > 0.0 ? missing / (missing + work.area) : 0.0;
@@ -79,12 +91,36 @@ double missing_share(const Work& work) {
 // Closed, but perhaps for vertices that lie in an edge instead of splitting it.
 bool encloses(const Work& work) { return missing_share(work) < kSeam; }
 
+// m^3, sum over the parts that share vertices, whatever their sense; from one of their own
+// vertices, so that an open part in one plane has none.
+double enclosed_volume(const TriangleMesh& mesh) {
+  DisjointSets parts(mesh.positions.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    parts.join(a, b);
+    parts.join(b, c);
+  }
+  std::vector<double> volumes(mesh.positions.size(), 0.0);  // by the part's first vertex
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::int32_t root = parts.root(a);
+    const Vec3& o = mesh.positions[root];
+    const Vec3 p = mesh.positions[a] - o, q = mesh.positions[b] - o, r = mesh.positions[c] - o;
+    volumes[root] += p.dot(q.cross(r)) / 6.0;
+  }
+  double sum = 0.0;
+  for (double volume : volumes) sum += std::abs(volume);
+  return sum;
+}
+
+[[noreturn]] void refuse_sheet(double volume, const Work& work) {
+  work.refuse(say("is a sheet: encloses nothing, a volume of ", volume, " m^3 at an area of ",
+                  work.area, " m^2"),
+              "give it a thickness");
+}
+
 void require_thickness(const Work& work) {
   const auto [low, high] = bounding_box(work.mesh);
-  const double volume = std::abs(solid_moments(work.mesh).volume);
-  if (!encloses(work) || 2.0 * volume > kFlat * (high - low).norm() * work.area) return;
-  work.refuse(say("is flat: its volume is ", volume, " m^3 at an area of ", work.area, " m^2"),
-              "give it a thickness");
+  const double volume = enclosed_volume(work.mesh);
+  if (2.0 * volume <= kFlat * (high - low).norm() * work.area) refuse_sheet(volume, work);
 }
 
 // What a sheet lacks: an inside that the surface is around.
@@ -92,14 +128,13 @@ void require_inside(const VoxelShares& shares, Work& work) {
   if (encloses(work)) return;
   const std::string holes =
       say(work.out.report.defects.unmatched_sides, " sides of its triangles have no neighbour");
-  const bool is_sheet = shares.moments.volume == 0.0;
-  if (is_sheet || shares.openness > kMostOpenness)
-    work.refuse(say("is open: ", holes, ", and ",
-                    is_sheet ? "nothing is inside"
-                             : "seen from inside, " + percent(shares.openness) +
-                                   " of all directions lead out; more than " +
-                                   percent(kMostOpenness) + " is a sheet"),
-                "close it, or model it as a shell");
+  const double volume = shares.moments.volume;
+  if (volume == 0.0 || shares.openness > kSheetOpenness) refuse_sheet(volume, work);
+  if (shares.openness > kMostOpenness)
+    work.refuse(
+        say("is open: ", holes, ", and seen from inside, ", percent(shares.openness),
+            " of all directions lead out; more than ", percent(kMostOpenness), " is a sheet"),
+        "close it, or model it as a shell");
   work.note(say("has holes: ", holes, "; seen from inside, ", percent(shares.openness),
                 " of all directions lead out"),
             "closed by its winding number; close them yourself if the shape surprises you");
@@ -133,13 +168,23 @@ std::vector<std::int32_t> cells_to_keep(const VoxelShares& shares) {
   return kept;
 }
 
-// Two cells through the mean thickness 2 V / A, in two digits.
+// Down to two digits.
+double two_digits(double x) {
+  const double digit = std::pow(10.0, std::floor(std::log10(x)) - 1.0);
+  return std::floor(x / digit) * digit;
+}
+
+// Two cells through the mean thickness 2 V / A. Where the samples missed the volume, as many cells
+// as one layer of them over one side takes.
 std::string finer_spacing(const Work& work) {
   const double volume = work.out.report.mesh.volume;
   const double half = 0.5 * work.options.spacing;
-  const double fits = volume > 0.0 ? std::min(half, volume / work.area) : half;
-  const double digit = std::pow(10.0, std::floor(std::log10(fits)) - 1.0);
-  return say("give a spacing of ", std::floor(fits / digit) * digit, " m or less");
+  const double fits = two_digits(volume > 0.0 ? std::min(half, volume / work.area) : half);
+  const double cells = volume > 0.0 ? volume / std::pow(fits, 3) : 0.5 * work.area / (fits * fits);
+  const std::string all = say("give a spacing of ", fits, " m or less, which makes about ",
+                              two_digits(std::max(cells, 1.0)), " cells");
+  const auto most = double(work.options.most_cells);
+  return cells > most ? all + say(", more than ", most, ": make it thicker") : all;
 }
 
 void require_count(const std::vector<std::int32_t>& kept, const Work& work) {
@@ -199,14 +244,14 @@ class CornerPoints {
       if (used[i]) point_[i] = builder.add_point(corners_.lowest_corner(corners_.place(i)));
   }
 
-  HexahedronCorners of(const CellPlace& place) const {
+  HexahedronCorners of(const VoxelIndex& place) const {
     HexahedronCorners corners;
     for (int c = 0; c < kHexahedronCorners; ++c) corners[c] = point_[index(place, c)];
     return corners;
   }
 
  private:
-  std::size_t index(const CellPlace& p, int c) const {
+  std::size_t index(const VoxelIndex& p, int c) const {
     return corners_.index({p[0] + (c & 1), p[1] + (c >> 1 & 1), p[2] + (c >> 2 & 1)});
   }
 
@@ -223,7 +268,7 @@ std::vector<LatticeCell> add_cells(const VoxelGrid& grid, const std::vector<std:
   std::vector<LatticeCell> cells;
   cells.reserve(kept.size());
   for (std::int32_t i : kept) {
-    const CellPlace place = grid.place(std::size_t(i));
+    const VoxelIndex place = grid.place(std::size_t(i));
     const HexahedronCorners corners = points.of(place);
     cells.push_back({place, add_hexahedron(builder, corners, pairs), corners});
   }
@@ -289,6 +334,7 @@ MeshLattice mesh_lattice(const TriangleMesh& mesh, const MeshLatticeOptions& opt
   require_sound(mesh, options.spacing);
   RepairedMesh repair = repaired(mesh);
   Work work{options, std::move(repair.mesh), 0.0, {}};
+  require_few_copies(repair, mesh.triangles.size(), work);
   note_repairs(repair, work);
   work.area = surface_area(work.mesh);
   work.out.report.defects = mesh_defects(work.mesh);

@@ -59,13 +59,13 @@ struct MeshLattice {
 // that lie apart stay one object, in pieces; the notes count them.
 //
 // Throws InputError with the defect and its numbers for a spacing that is not positive; a mesh
-// without triangles, with corners that do not exist or positions that are not finite; a surface
-// that bounds no volume (flat, or so open that from inside more than a quarter of all directions
-// lead out through holes); winding numbers that
-// do not tell inside from outside (ambiguous cells more than 30 % of the surface cells); a mesh too
-// thin for the spacing (no cell kept; volume or inertia off by more than most_error; more than 10 %
-// of the cells joined by edges and points alone; parts farther from any cell than kMostSkinReach);
-// more cells than most_cells.
+// without triangles, with corners that do not exist or positions that are not finite; more than 5 %
+// of the triangles copies of others, as in a file that breaks off; a surface that bounds no volume
+// (a sheet, or so open that from inside more than a quarter of all directions lead out through
+// holes); winding numbers that do not tell inside from outside (ambiguous cells more than 30 % of
+// the surface cells); a mesh too thin for the spacing (no cell kept; volume or inertia off by more
+// than most_error; more than 10 % of the cells joined by edges and points alone; parts farther from
+// any cell than kMostSkinReach); more cells than most_cells.
 MeshLattice mesh_lattice(const TriangleMesh& mesh, const MeshLatticeOptions& options);
 
 // Moments of what is inside by winding numbers at cubes of `spacing_m`, fine enough to judge the

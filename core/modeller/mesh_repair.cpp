@@ -12,47 +12,13 @@
 namespace limber {
 namespace {
 
+constexpr std::int32_t kLoose = -1;
+
 void turn(MeshTriangle& t) { std::swap(t[1], t[2]); }
 
 double area_of(const TriangleMesh& mesh, const MeshTriangle& t) {
   const Vec3& a = mesh.positions[t[0]];
   return 0.5 * (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).norm();
-}
-
-// Each position -> the first equal one.
-std::vector<std::int32_t> first_equal(const std::vector<Vec3>& positions) {
-  std::vector<std::int32_t> order(positions.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](std::int32_t i) {
-    return std::tuple(positions[i].x(), positions[i].y(), positions[i].z());
-  };
-  std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
-    return key(i) != key(j) ? key(i) < key(j) : i < j;
-  });
-  std::vector<std::int32_t> first(positions.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool equal = k > 0 && key(order[k - 1]) == key(order[k]);
-    first[order[k]] = equal ? first[order[k - 1]] : order[k];
-  }
-  return first;
-}
-
-void join_positions(RepairedMesh& out) {
-  const std::vector<std::int32_t> first = first_equal(out.mesh.positions);
-  std::vector<std::int32_t> renumbered(first.size());
-  std::vector<Vec3> kept;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    if (first[i] == static_cast<std::int32_t>(i)) {
-      renumbered[i] = static_cast<std::int32_t>(kept.size());
-      kept.push_back(out.mesh.positions[i]);
-    } else {
-      renumbered[i] = renumbered[first[i]];
-      ++out.joined_positions;
-    }
-  }
-  out.mesh.positions = std::move(kept);
-  for (MeshTriangle& t : out.mesh.triangles)
-    for (std::int32_t& corner : t) corner = renumbered[corner];
 }
 
 void drop_useless(RepairedMesh& out) {
@@ -62,10 +28,10 @@ void drop_useless(RepairedMesh& out) {
   for (const MeshTriangle& t : out.mesh.triangles) {
     MeshTriangle key = t;
     std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
-      ++out.collapsed_triangles;
-    else if (!seen.insert(key).second)
+    if (!seen.insert(key).second)
       ++out.doubled_triangles;
+    else if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+      ++out.collapsed_triangles;
     else
       kept.push_back(t);
   }
@@ -188,25 +154,88 @@ std::vector<std::int32_t> open_patches(const TriangleMesh& mesh, const Patches& 
   return open;
 }
 
+// Position -> its shell, a patch that is closed as it is; kLoose where other triangles use it. To
+// join two shells that touch would make one patch of edges that nobody can tell apart.
+std::vector<std::int32_t> shells_of(const TriangleMesh& mesh) {
+  const Patches patches = patches_of(mesh);
+  const std::vector<std::int32_t> open = open_patches(mesh, patches);
+  std::vector<std::int32_t> shell(mesh.positions.size(), kLoose);
+  const auto assign = [&](bool closed) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      if (is_closed_patch(open, patches.of[i]) == closed)
+        for (std::int32_t c : mesh.triangles[i]) shell[c] = closed ? patches.of[i] : kLoose;
+  };
+  assign(true);
+  assign(false);
+  return shell;
+}
+
+// Each position -> the first equal one of its group.
+std::vector<std::int32_t> first_equal(const std::vector<Vec3>& positions,
+                                      const std::vector<std::int32_t>& group) {
+  std::vector<std::int32_t> order(positions.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](std::int32_t i) {
+    return std::tuple(group[i], positions[i].x(), positions[i].y(), positions[i].z());
+  };
+  std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
+    return key(i) != key(j) ? key(i) < key(j) : i < j;
+  });
+  std::vector<std::int32_t> first(positions.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool equal = k > 0 && key(order[k - 1]) == key(order[k]);
+    first[order[k]] = equal ? first[order[k - 1]] : order[k];
+  }
+  return first;
+}
+
+void join_positions(RepairedMesh& out) {
+  const std::vector<std::int32_t> first = first_equal(out.mesh.positions, shells_of(out.mesh));
+  std::vector<std::int32_t> renumbered(first.size());
+  std::vector<Vec3> kept;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] == static_cast<std::int32_t>(i)) {
+      renumbered[i] = static_cast<std::int32_t>(kept.size());
+      kept.push_back(out.mesh.positions[i]);
+    } else {
+      renumbered[i] = renumbered[first[i]];
+      ++out.joined_positions;
+    }
+  }
+  out.mesh.positions = std::move(kept);
+  for (MeshTriangle& t : out.mesh.triangles)
+    for (std::int32_t& corner : t) corner = renumbered[corner];
+}
+
+// Whether each patch has a vertex outside `around`; only patches that are `asked` about are looked
+// at. One vertex inside does not make a cavity: a handle is stuck into its pot, too.
+std::vector<std::uint8_t> reach_out(const TriangleMesh& mesh, const Patches& patches,
+                                    const std::vector<std::uint8_t>& asked,
+                                    const FastWindingNumber& around) {
+  std::vector<std::uint8_t> out(patches.count, 0);
+  for (std::size_t i = 0; i < patches.of.size(); ++i) {
+    const std::int32_t patch = patches.of[i];
+    if (!asked[patch]) continue;
+    for (std::int32_t c : mesh.triangles[i])
+      if (!out[patch]) out[patch] = around.at(mesh.positions[c]) < 0.5;
+  }
+  return out;
+}
+
 // Only closed patches are turned: of an open one nobody knows which side is out.
 void turn_parts(RepairedMesh& out, const Patches& patches) {
   const std::vector<double> volumes = volumes_of(out.mesh, patches);
   const std::vector<std::int32_t> open = open_patches(out.mesh, patches);
+  std::vector<std::uint8_t> negative(patches.count, 0);
+  for (std::int32_t p = 0; p < patches.count; ++p)
+    negative[p] = volumes[p] < 0.0 && is_closed_patch(open, p);
   TriangleMesh positive{out.mesh.name, out.mesh.positions, {}};
-  std::vector<std::int32_t> first(patches.count, -1);
-  for (std::size_t i = 0; i < patches.of.size(); ++i) {
-    std::int32_t& f = first[patches.of[i]];
-    if (f < 0) f = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < patches.of.size(); ++i)
     if (volumes[patches.of[i]] > 0.0) positive.triangles.push_back(out.mesh.triangles[i]);
-  }
-  const FastWindingNumber around(positive);
-  std::vector<std::uint8_t> inside_out(patches.count, 0);
-  for (std::int32_t p = 0; p < patches.count; ++p) {
-    if (volumes[p] >= 0.0 || !is_closed_patch(open, p)) continue;
-    const Vec3& probe = out.mesh.positions[out.mesh.triangles[first[p]][0]];
-    inside_out[p] = around.at(probe) < 0.5;
-    out.turned_parts += inside_out[p];
-  }
+  const std::vector<std::uint8_t> inside_out =
+      reach_out(out.mesh, patches, negative, FastWindingNumber(positive));
+  out.turned_parts =
+      static_cast<std::size_t>(std::count(inside_out.begin(), inside_out.end(), std::uint8_t{1}));
   for (std::size_t i = 0; i < patches.of.size(); ++i)
     if (inside_out[patches.of[i]]) turn(out.mesh.triangles[i]);
 }

@@ -33,7 +33,8 @@ void require_usable(const Box& box, const std::string& what, double distance_m) 
     throw InputError(
         {kWhere, "the box is empty", "give the lowest corner first, then the highest"});
   }
-  require_affordable(kWhere, (box.size() / distance_m).prod(), "give a larger " + what);
+  const auto count = (box.size() / distance_m).cwiseMax(1.0).prod();  // thin boxes: one across
+  require_affordable(kWhere, count, "give a larger " + what);
 }
 
 Box box_around(const Vec3& centre_m, double radius_m) {
@@ -99,6 +100,17 @@ class SpacedPlaces {
 
   const std::vector<Vec3>& places() const { return places_; }
 
+  std::size_t cells() const { return cell_.size(); }
+  bool is_taken(std::size_t cell) const { return cell_[cell] >= 0; }
+
+  // What of the box is in this cell.
+  Box box_of(std::size_t cell) const {
+    const std::size_t nx = std::size_t(n_[0]), ny = std::size_t(n_[1]);
+    const Vec3 at(double(cell % nx), double(cell / nx % ny), double(cell / nx / ny));
+    const Vec3 low = (box_.low + side_ * at).cwiseMin(box_.high);
+    return {low, (low + Vec3::Constant(side_)).cwiseMin(box_.high)};
+  }
+
   bool has_room_at(const Vec3& p) const {
     const std::array<int, 3> at = cell_of(p);
     for (int z = std::max(0, at[2] - 2); z <= std::min(n_[2] - 1, at[2] + 2); ++z) {
@@ -138,26 +150,46 @@ class SpacedPlaces {
   std::vector<Vec3> places_;
 };
 
-constexpr int kTries = 30;  // Bridson's k
+constexpr int kTries = 30;        // Bridson's k
+constexpr int kTriesInACell = 4;  // there are some five cells to a place
+
+using Inside = std::function<bool(const Vec3&)>;
+
+bool added(const Vec3& p, const Inside& inside, SpacedPlaces& spaced) {
+  if (!inside(p) || !spaced.has_room_at(p)) return false;
+  spaced.add(p);
+  return true;
+}
 
 // New places in the shell around one that is there, until none of kTries has room.
-std::vector<Vec3> scattered(const Box& box, const std::function<bool(const Vec3&)>& inside,
-                            const Vec3& first, double least_distance, Random& random) {
-  SpacedPlaces spaced(box, least_distance);
-  spaced.add(first);
+void spread_from(const Vec3& first, const Inside& inside, double least_distance,
+                 SpacedPlaces& spaced, Random& random) {
   for (std::vector<Vec3> active = {first}; !active.empty();) {
     const std::size_t at = random.index_below(active.size());
     bool found = false;
     for (int i = 0; i < kTries && !found; ++i) {
       const Vec3 p = active[at] + random.in_shell(least_distance);
-      found = inside(p) && spaced.has_room_at(p);
-      if (!found) continue;
-      spaced.add(p);
-      active.push_back(p);
+      found = added(p, inside, spaced);
+      if (found) active.push_back(p);
     }
     if (found) continue;
     active[at] = active.back();
     active.pop_back();
+  }
+}
+
+// The front of new places dies out where most of each shell is outside: in boxes thinner than the
+// distance nearly at once. So each cell of the grid that is still empty may start it anew.
+std::vector<Vec3> scattered(const Box& box, const Inside& inside, const Vec3& first,
+                            double least_distance, Random& random) {
+  SpacedPlaces spaced(box, least_distance);
+  spaced.add(first);
+  spread_from(first, inside, least_distance, spaced, random);
+  for (std::size_t cell = 0; cell < spaced.cells(); ++cell) {
+    for (int i = 0; i < kTriesInACell && !spaced.is_taken(cell); ++i) {
+      const Vec3 p = random.in_box(spaced.box_of(cell));
+      if (added(p, inside, spaced)) spread_from(p, inside, least_distance, spaced, random);
+    }
   }
   return spaced.places();
 }

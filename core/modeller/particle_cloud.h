@@ -24,7 +24,8 @@ std::vector<Vec3> grid_in_sphere(const Vec3& centre_m, double radius_m, double s
 
 // Random places in the box, no two nearer than `least_distance_m`, and so dense that there is
 // hardly room for more (blue noise: Bridson, Fast Poisson Disk Sampling in Arbitrary Dimensions,
-// SIGGRAPH 2007, with 30 tries a place). The same seed gives the same places on every machine.
+// SIGGRAPH 2007, with 30 tries a place; started anew where it dies out). The same seed gives the
+// same places on every machine.
 std::vector<Vec3> scattered_in_box(const Vec3& low_m, const Vec3& high_m, double least_distance_m,
                                    std::uint64_t seed);
 

@@ -12,7 +12,10 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <fstream>
+#include <new>
 #include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include "core/model/diagnostic_list.h"
@@ -34,6 +37,19 @@ std::string lower_extension(const std::filesystem::path& file) {
   return extension;
 }
 
+void require_file(const std::filesystem::path& file) {
+  using std::filesystem::file_type;
+  std::error_code error;
+  const file_type type = std::filesystem::status(file, error).type();
+  if (type == file_type::directory) refuse(file, "is a folder", "name a file in it");
+  const bool hidden = error == std::errc::permission_denied;
+  if (hidden || (type == file_type::regular && !std::ifstream(file)))
+    refuse(file, "may not be read by this user", "give the user permission to read it");
+  if (type == file_type::not_found || type == file_type::none)
+    refuse(file, "there is no such file", "check the path");
+  if (type != file_type::regular) refuse(file, "is not a regular file", "check the path");
+}
+
 void require_readable(const std::filesystem::path& file, double scale) {
   if (!(scale > 0.0 && std::isfinite(scale)))
     refuse(file, say("the scale is ", scale), "give the metres in a unit of the file, above 0");
@@ -41,11 +57,11 @@ void require_readable(const std::filesystem::path& file, double scale) {
   if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end())
     refuse(file, "is not an OBJ, PLY, STL or glTF file by its name",
            "let it end in .obj, .ply, .stl, .gltf or .glb");
+  require_file(file);
   std::error_code error;
-  const bool is_file = std::filesystem::is_regular_file(file, error);
-  if (error || !is_file) refuse(file, "there is no such file", "check the path");
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-  if (error) refuse(file, "cannot be read: " + error.message(), "check the permissions");
+  if (error) refuse(file, "cannot be read: " + error.message(), "check the path");
+  if (bytes == 0) refuse(file, "is empty", "export the mesh again");
   if (bytes > kMostMeshBytes)
     refuse(file, say("has ", bytes, " bytes, more than ", kMostMeshBytes),
            "reduce the mesh to fewer triangles");
@@ -79,13 +95,6 @@ constexpr unsigned kSteps = aiProcess_ValidateDataStructure | aiProcess_RemoveCo
                             aiProcess_Triangulate | aiProcess_SortByPType |
                             aiProcess_JoinIdenticalVertices;
 
-// One line without what would end it.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
-  return text.substr(0, 300);
-}
-
 // The product of the transforms on the way to a node, metres from the file's units.
 struct Placed {
   const aiNode* node;
@@ -103,7 +112,8 @@ Vec3 placed(const aiMatrix4x4t<double>& m, const aiVector3D& v, double scale) {
                       m.c1 * x + m.c2 * y + m.c3 * z + m.c4);
 }
 
-// A mirror turns triangles round; they are turned back.
+// A mirror turns triangles round; they are turned back. A corner that the mesh does not have is -1,
+// not a vertex of the next mesh.
 void append(const aiMesh& from, const aiMatrix4x4t<double>& to_world, double scale,
             TriangleMesh& mesh) {
   const auto first = static_cast<std::int32_t>(mesh.positions.size());
@@ -114,8 +124,10 @@ void append(const aiMesh& from, const aiMatrix4x4t<double>& to_world, double sca
     const aiFace& face = from.mFaces[i];
     if (face.mNumIndices != 3) continue;
     MeshTriangle t;
-    for (unsigned k = 0; k < 3; ++k)
-      t[k] = first + static_cast<std::int32_t>(std::min(face.mIndices[k], from.mNumVertices));
+    for (unsigned k = 0; k < 3; ++k) {
+      const unsigned corner = face.mIndices[k];
+      t[k] = corner < from.mNumVertices ? first + static_cast<std::int32_t>(corner) : -1;
+    }
     if (mirrored) std::swap(t[1], t[2]);
     mesh.triangles.push_back(t);
   }
@@ -126,7 +138,11 @@ bool affordable(const TriangleMesh& mesh, const aiMesh& next) {
          mesh.positions.size() + next.mNumVertices <= 3 * kMostMeshTriangles;
 }
 
-// Throws std::length_error for too many triangles.
+struct TooManyTriangles : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+// Throws TooManyTriangles.
 TriangleMesh gathered(const aiScene& scene, double scale) {
   TriangleMesh mesh;
   std::vector<Placed> open = {{scene.mRootNode, {}}};
@@ -137,7 +153,7 @@ TriangleMesh gathered(const aiScene& scene, double scale) {
     for (unsigned i = 0; i < node->mNumMeshes; ++i) {
       const aiMesh& part = *scene.mMeshes[node->mMeshes[i]];
       if (!affordable(mesh, part))
-        throw std::length_error(say("it has more than ", kMostMeshTriangles, " triangles"));
+        throw TooManyTriangles(say("has more than ", kMostMeshTriangles, " triangles"));
       append(part, to_world, scale, mesh);
     }
     for (unsigned i = node->mNumChildren; i-- > 0;) open.push_back({node->mChildren[i], to_world});
@@ -145,9 +161,10 @@ TriangleMesh gathered(const aiScene& scene, double scale) {
   return mesh;
 }
 
-// What the child process sends: a mesh, or text that says why there is none.
+// What the child process sends: a mesh, text that says why there is none, or that it is empty.
 constexpr char kIsMesh = 'M';
 constexpr char kIsText = 'T';
+constexpr char kIsEmpty = 'E';
 
 template <class T>
 void put(std::string& bytes, const std::vector<T>& items) {
@@ -165,6 +182,21 @@ void take(const std::string& bytes, std::size_t& at, std::vector<T>& items) {
   at += sizeof n + n * sizeof(T);
 }
 
+// What Assimp says of a scene without triangles.
+bool means_empty(const std::string& error) {
+  for (const char* text : {"contains no faces", "contains no vertices", "mNumMeshes is 0"})
+    if (error.find(text) != std::string::npos) return true;
+  return false;
+}
+
+// Assimp's own words are about its classes: not for the user.
+std::string without_mesh(const std::filesystem::path& file, const std::string& error) {
+  if (means_empty(error)) return {kIsEmpty};
+  const std::string kind = lower_extension(file);
+  const std::string others = kind == ".gltf" ? ", or a file that it names is missing" : "";
+  return kIsText + ("is cut short or is not a " + kind + " file" + others);
+}
+
 std::string imported(const std::filesystem::path& file, double scale) {
   try {
     Assimp::Importer importer;
@@ -172,14 +204,18 @@ std::string imported(const std::filesystem::path& file, double scale) {
     ask_for_bare_triangles(importer);
     const aiScene* scene = importer.ReadFile(file.string(), kSteps);
     if (scene == nullptr || scene->mRootNode == nullptr)
-      return kIsText + one_line(importer.GetErrorString());
+      return without_mesh(file, importer.GetErrorString());
     const TriangleMesh mesh = gathered(*scene, scale);
     std::string bytes(1, kIsMesh);
     put(bytes, mesh.positions);
     put(bytes, mesh.triangles);
     return bytes;
+  } catch (const TooManyTriangles& error) {
+    return kIsText + std::string(error.what());
+  } catch (const std::bad_alloc&) {
+    return kIsText + std::string("takes more memory than a mesh may");
   } catch (const std::exception& error) {
-    return kIsText + one_line(error.what());
+    return without_mesh(file, error.what());
   }
 }
 
@@ -192,10 +228,11 @@ ApartLimits limits_for(const std::filesystem::path& file) {
   return limits;
 }
 
-[[noreturn]] void refuse_unreadable(const std::filesystem::path& file, const std::string& why) {
-  refuse(file, "cannot be read: " + (why.empty() ? "it holds no scene" : why),
-         "write it anew, or convert it to another of these formats");
+[[noreturn]] void refuse_empty(const std::filesystem::path& file) {
+  refuse(file, "holds no triangles", "export surfaces, not points, lines or an empty scene");
 }
+
+constexpr const char* kWriteAnew = "write it anew, or convert it to another of these formats";
 
 }  // namespace
 
@@ -203,16 +240,15 @@ ApartLimits limits_for(const std::filesystem::path& file) {
 TriangleMesh read_mesh(const std::filesystem::path& file, double scale) {
   require_readable(file, scale);
   const ApartResult result = run_apart([&] { return imported(file, scale); }, limits_for(file));
-  if (!result.failure.empty()) refuse_unreadable(file, result.failure);
-  if (result.bytes.empty() || result.bytes.front() != kIsMesh)
-    refuse_unreadable(file, result.bytes.empty() ? "" : result.bytes.substr(1));
+  if (!result.failure.empty()) refuse(file, "cannot be read: " + result.failure, kWriteAnew);
+  if (result.bytes.front() == kIsEmpty) refuse_empty(file);
+  if (result.bytes.front() != kIsMesh) refuse(file, result.bytes.substr(1), kWriteAnew);
   TriangleMesh mesh;
   mesh.name = file.stem().string();
   std::size_t at = 1;
   take(result.bytes, at, mesh.positions);
   take(result.bytes, at, mesh.triangles);
-  if (mesh.triangles.empty())
-    refuse(file, "holds no triangles", "export surfaces, not points, lines or an empty scene");
+  if (mesh.triangles.empty()) refuse_empty(file);
   return mesh;
 }
 

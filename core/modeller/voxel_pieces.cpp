@@ -13,8 +13,8 @@ constexpr double kSpeckShare = 0.01;    // of all cells
 
 // Half of the 6 steps to neighbours by faces, or of the 26 to neighbours by points: those to cells
 // earlier in the grid.
-std::vector<CellPlace> steps_back(bool faces_only) {
-  std::vector<CellPlace> steps;
+std::vector<VoxelIndex> steps_back(bool faces_only) {
+  std::vector<VoxelIndex> steps;
   for (std::int32_t z = -1; z <= 1; ++z)
     for (std::int32_t y = -1; y <= 1; ++y)
       for (std::int32_t x = -1; x <= 1; ++x) {
@@ -29,13 +29,13 @@ DisjointSets joined_cells(const VoxelGrid& grid, const std::vector<std::int32_t>
                           bool faces_only) {
   DisjointSets sets(cells.size());
   std::vector<std::int32_t> at(grid.size(), -1);
-  const std::vector<CellPlace> steps = steps_back(faces_only);
+  const std::vector<VoxelIndex> steps = steps_back(faces_only);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto here = static_cast<std::int32_t>(i);
     at[std::size_t(cells[i])] = here;
-    const CellPlace p = grid.place(std::size_t(cells[i]));
-    for (const CellPlace& step : steps) {
-      const CellPlace q = {p[0] + step[0], p[1] + step[1], p[2] + step[2]};
+    const VoxelIndex p = grid.place(std::size_t(cells[i]));
+    for (const VoxelIndex& step : steps) {
+      const VoxelIndex q = {p[0] + step[0], p[1] + step[1], p[2] + step[2]};
       if (grid.contains(q) && at[grid.index(q)] >= 0) sets.join(at[grid.index(q)], here);
     }
   }

@@ -7,6 +7,7 @@ namespace limber {
 namespace {
 
 constexpr int kSamples = 3;          // along each axis of a surface cell; odd: one in the middle
+constexpr int kMargin = 1;           // cells around the box's
 constexpr double kInside = 0.5;      // winding number
 constexpr double kAmbiguity = 0.05;  // of winding numbers around kInside
 
@@ -17,8 +18,8 @@ std::vector<std::int32_t> surface_cells(const VoxelGrid& grid, const TriangleMes
   std::vector<std::uint8_t> met(grid.size(), 0);
   for (const MeshTriangle& t : fine.triangles) {
     const Vec3 &a = fine.positions[t[0]], &b = fine.positions[t[1]], &c = fine.positions[t[2]];
-    const CellPlace low = grid.around(a.cwiseMin(b).cwiseMin(c));
-    const CellPlace high = grid.around(a.cwiseMax(b).cwiseMax(c));
+    const VoxelIndex low = grid.around(a.cwiseMin(b).cwiseMin(c));
+    const VoxelIndex high = grid.around(a.cwiseMax(b).cwiseMax(c));
     for (std::int32_t z = low[2]; z <= high[2]; ++z)
       for (std::int32_t y = low[1]; y <= high[1]; ++y)
         for (std::int32_t x = low[0]; x <= high[0]; ++x) met[grid.index({x, y, z})] = 1;
@@ -101,23 +102,23 @@ class Sampler {
 
 }  // namespace
 
-bool VoxelGrid::contains(const CellPlace& p) const {
+bool VoxelGrid::contains(const VoxelIndex& p) const {
   for (std::size_t k = 0; k < 3; ++k)
     if (p[k] < 0 || p[k] >= cells[k]) return false;
   return true;
 }
 
-CellPlace VoxelGrid::place(std::size_t index) const {
+VoxelIndex VoxelGrid::place(std::size_t index) const {
   const auto nx = std::size_t(cells[0]), ny = std::size_t(cells[1]);
   return {std::int32_t(index % nx), std::int32_t(index / nx % ny), std::int32_t(index / (nx * ny))};
 }
 
-Vec3 VoxelGrid::lowest_corner(const CellPlace& p) const {
+Vec3 VoxelGrid::lowest_corner(const VoxelIndex& p) const {
   return origin + spacing * Vec3(p[0], p[1], p[2]);
 }
 
-CellPlace VoxelGrid::around(const Vec3& x) const {
-  CellPlace p;
+VoxelIndex VoxelGrid::around(const Vec3& x) const {
+  VoxelIndex p;
   for (std::size_t k = 0; k < 3; ++k) {
     const double at = std::floor((x[Eigen::Index(k)] - origin[Eigen::Index(k)]) / spacing);
     p[k] = static_cast<std::int32_t>(std::clamp(at, 0.0, double(cells[k] - 1)));
@@ -132,10 +133,10 @@ VoxelGrid grid_around(const TriangleMesh& mesh, double spacing_m) {
   Vec3 size;
   for (Eigen::Index k = 0; k < 3; ++k) {
     const double n = std::max(1.0, std::round((high[k] - low[k]) / spacing_m));
-    grid.cells[std::size_t(k)] = static_cast<std::int32_t>(n);
+    grid.cells[std::size_t(k)] = static_cast<std::int32_t>(n) + 2 * kMargin;
     size[k] = n * spacing_m;
   }
-  grid.origin = 0.5 * (low + high - size);
+  grid.origin = 0.5 * (low + high - size) - Vec3::Constant(kMargin * spacing_m);
   return grid;
 }
 

@@ -9,28 +9,30 @@
 
 namespace limber {
 
-using CellPlace = std::array<std::int32_t, 3>;  // of a cell in its grid
+using VoxelIndex = std::array<std::int32_t, 3>;  // of a cell in its grid
 
 // Cubes of `spacing`, x fastest.
 struct VoxelGrid {
-  Vec3 origin = Vec3::Zero();   // m, the lowest corner
-  double spacing = 0.0;         // m
-  CellPlace cells = {0, 0, 0};  // along each axis
+  Vec3 origin = Vec3::Zero();    // m, the lowest corner
+  double spacing = 0.0;          // m
+  VoxelIndex cells = {0, 0, 0};  // along each axis
 
   std::size_t size() const {
     return std::size_t(cells[0]) * std::size_t(cells[1]) * std::size_t(cells[2]);
   }
-  bool contains(const CellPlace& p) const;
-  std::size_t index(const CellPlace& p) const {
+  bool contains(const VoxelIndex& p) const;
+  std::size_t index(const VoxelIndex& p) const {
     return std::size_t(p[0]) + std::size_t(cells[0]) * (p[1] + std::size_t(cells[1]) * p[2]);
   }
-  CellPlace place(std::size_t index) const;
-  Vec3 lowest_corner(const CellPlace& p) const;  // m
-  CellPlace around(const Vec3& x) const;         // of the cell that x is in; of the nearest one
+  VoxelIndex place(std::size_t index) const;
+  Vec3 lowest_corner(const VoxelIndex& p) const;  // m
+  VoxelIndex around(const Vec3& x) const;         // of the cell that x is in; of the nearest one
 };
 
 // The grid in the middle of the mesh's box, of the whole number of cells nearest to its length
 // along each axis, at least one: a box of whole cells is met exactly, another as well as cells can.
+// One more on every side, never half full, is for what sticks out of these by up to a quarter of a
+// cell: it counts in moments.
 VoxelGrid grid_around(const TriangleMesh& mesh, double spacing_m);
 
 // How much of each cell is inside the mesh.

@@ -103,6 +103,8 @@ void note_object_values(const std::string& where, const PhysicalModel& a, const 
   compare(&ObjectAttributes::friction, "friction");
   compare(&ObjectAttributes::restitution, "restitution");
   compare(&ObjectAttributes::internal_damping, "internal damping");
+  compare(&ObjectAttributes::contact_share, "contact share");
+  compare(&ObjectAttributes::particle_radius, "particle radius");
 }
 
 }  // namespace

@@ -87,12 +87,17 @@ void refuse_writing(const fs::path& target, int error) {
 }
 
 AtomicFile::AtomicFile(const fs::path& target)
-    : target_(resolved(target)), path_(unused_name(target_)) {
+    : target_(resolved(target)) {
   refuse_unwritable_existing(target_);
   if (is_special(target_))
     throw InputError({target.string(), "is no regular file", "name a file on a disk"});
-  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) refuse_writing(target_, errno);
+  do {  // what a crashed run of the same number left behind is not ours to take away
+    path_ = unused_name(target_);
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor_ < 0 && errno == EEXIST);
+  if (descriptor_ >= 0) return;
+  path_.clear();
+  refuse_writing(target_, errno);
 }
 
 AtomicFile::~AtomicFile() {

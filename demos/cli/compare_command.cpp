@@ -58,6 +58,7 @@ ComparedRuns run_all(const CompareOptions& options, const Scene& scene, Terminal
 
 void compare_scene(const CompareOptions& options, Terminal& terminal) {
   const Scene scene = build_scene(options.scene, options.changes);
+  require_other_file(options.scene, options.json);
   require_json_target(options);
   const ComparedRuns runs = run_all(options, scene, terminal);
   const Comparison comparison = compare(runs);

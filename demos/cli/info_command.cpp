@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <limits>
 #include <memory>
 #include <ostream>
 
@@ -23,16 +22,19 @@ struct InfoOptions : OutputOptions {
 };
 
 void refuse_invalid(const PhysicalModel& model, const std::string& file, Terminal& terminal) {
-  const std::vector<Diagnostic> found = validate(model, std::numeric_limits<std::size_t>::max());
+  constexpr std::size_t kMost = 100;  // more would bury the first
+  const std::vector<Diagnostic> found = validate(model, kMost);
   if (found.empty()) return;
   for (const Diagnostic& d : found) terminal.err << "limber: " << printable(d.text()) << '\n';
   throw InputError({file,
-                    fmt::format("holds a model with {} {} (above)", grouped(found.size()),
+                    fmt::format("holds a model with {}{} {} (above)",
+                                found.size() == kMost ? "at least " : "", grouped(found.size()),
                                 found.size() == 1 ? "error" : "errors"),
                     "mend what wrote it; docs/invariants.md lists what a model has to fulfil"});
 }
 
 void inspect_file(const InfoOptions& options, Terminal& terminal) {
+  require_other_file(options.file, options.json);
   require_json_target(options);
   const Seal seal = model_file_seal(options.file);
   PhysicalModel model = read_model_unchecked(options.file);

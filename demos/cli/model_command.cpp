@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <ostream>
@@ -16,6 +17,7 @@
 #include "core/storage/atomic_file.h"
 #include "core/storage/model_file.h"
 #include "demos/cli/numbers.h"
+#include "demos/cli/options.h"
 #include "demos/cli/text_table.h"
 
 namespace limber::demos {
@@ -57,10 +59,24 @@ Material material_of(const ModelOptions& options) {
 double spacing_of(const ModelOptions& options, const TriangleMesh& mesh) {
   if (options.spacing > 0.0) return options.spacing;
   const auto [low, high] = bounding_box(mesh);
-  return (high - low).maxCoeff() / kDefaultCells;
+  const double longest = (high - low).maxCoeff();
+  if (longest > 0.0 && std::isfinite(longest)) return longest / kDefaultCells;
+  throw InputError({options.mesh, fmt::format("is {} m long", longest),
+                    "mend its positions: they have to be finite and not all in one place"});
 }
 
-std::string percent(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
+std::string size_line(const TriangleMesh& mesh, double spacing) {
+  const auto [low, high] = bounding_box(mesh);
+  const Vec3 size = high - low;
+  return fmt::format("{} x {} x {} m, cells of {} m\n", significant(size.x()), significant(size.y()),
+                     significant(size.z()), significant(spacing));
+}
+
+// 0 for what rounds to it: no "-0.00 %".
+std::string percent(double share) {
+  const double hundredths = std::round(1e4 * share);
+  return fmt::format("{:.2f} %", hundredths == 0.0 ? 0.0 : 0.01 * hundredths);
+}
 
 std::string mesh_table(const MeshLatticeReport& report) {
   TextTable table;
@@ -87,10 +103,14 @@ void say_notes(const std::vector<Diagnostic>& notes, Terminal& terminal) {
 
 void make_model(const ModelOptions& options, Terminal& terminal) {
   const Material material = material_of(options);
-  if (!options.output.empty()) require_writable(options.output);
+  if (!options.output.empty()) {
+    require_other_file(options.mesh, options.output);
+    require_writable(options.output);
+  }
   const TriangleMesh mesh = read_mesh(options.mesh, options.scale);
-  MeshLattice made =
-      mesh_lattice(mesh, {.spacing = spacing_of(options, mesh), .name = mesh.name, .edges = {}});
+  const double spacing = spacing_of(options, mesh);
+  terminal.out << size_line(mesh, spacing);
+  MeshLattice made = mesh_lattice(mesh, {.spacing = spacing, .name = mesh.name, .edges = {}});
   PhysicalModel model = with_material(std::move(made.geometry), mesh.name, material);
   model.skins.push_back(std::move(made.skin));
   const MaterialReport report = material_report(model);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <map>
 #include <ostream>
 
@@ -108,6 +109,12 @@ void write_json(const OutputOptions& options, const std::string& text, Terminal&
   } else {
     write_file_atomically(options.json, text);
   }
+}
+
+void require_other_file(const std::string& input, const std::string& output) {
+  std::error_code none;
+  if (!std::filesystem::equivalent(input, output, none)) return;
+  throw InputError({output, "is what the command reads", "write to another file"});
 }
 
 bool tables_wanted(const OutputOptions& options) { return options.json != "-"; }

@@ -29,6 +29,9 @@ void add_tick(CLI::App& command, SceneOptions& options);
 void add_policy(CLI::App& command, SceneOptions& options);
 void add_json(CLI::App& command, OutputOptions& options);
 
+// Refuses an output that is the input: it would be gone.
+void require_other_file(const std::string& input, const std::string& output);
+
 // Checks before any work that the result can be delivered.
 void require_json_target(const OutputOptions& options);
 

@@ -100,7 +100,15 @@ void render_scene(const RenderOptions& options, Terminal& terminal) {
 }
 
 void render(const RenderOptions& options, Terminal& terminal) {
+  if (options.time_s >= 0.0 && options.lattice) {
+    throw InputError({"command line", "--lattice is for a model file without --time",
+                      "leave out one of the two"});
+  }
   if (options.time_s >= 0.0) return render_scene(options, terminal);
+  if (!options.changes.empty()) {
+    throw InputError({"command line", "--set is for a scene, at a --time",
+                      "add --time, or leave out --set"});
+  }
   if (std::filesystem::is_regular_file(options.scene)) return render_model(options, terminal);
   throw InputError({"command line", "--time is missing",
                     "name the instant to show; only a model file may go without"});

@@ -21,6 +21,7 @@ RunResult run_with_progress(const SceneOptions& options, const Scene& scene, Ter
 
 void run_scene(const SceneOptions& options, Terminal& terminal) {
   const Scene scene = build_scene(options.scene, options.changes);
+  require_other_file(options.scene, options.json);
   require_json_target(options);
   const RunResult result = run_with_progress(options, scene, terminal);
   write_json(options, run_json(result, options.run.policy), terminal);

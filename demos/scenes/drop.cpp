@@ -27,13 +27,18 @@ Camera camera_for(const Vec3& size, double height, double zoom) {
   return {target + 2.2 * shown * Vec3(0.35, 0.25, 0.9), target, 32.0};
 }
 
+void require(bool good, const PhysicalModel& model, const std::string& what,
+             const std::string& remedy) {
+  if (!good) throw InputError({"scene " + model.name, what, remedy});
+}
+
 Scene build(PhysicalModel model, const ParameterValues& values) {
+  require(!model.points.empty(), model, "the model has no points", "give one that has");
+  require(values.at("height") >= 0.0, model, "the height is below 0", "give 0 m or more");
+  require(values.at("zoom") > 0.0, model, "the zoom is not above 0", "give 1 or so");
   const Extent box = extent_of(model);
   const Vec3 middle = 0.5 * (box.low + box.high);
   const double height = values.at("height");
-  if (values.at("zoom") <= 0.0) {
-    throw InputError({"scene " + model.name + ": parameter zoom", "it is not above 0", "give 1 or so"});
-  }
   place(model, Mat3::Identity(), {-middle.x(), height - box.low.y(), -middle.z()});
   set_in_motion(model, {values.at("speed"), 0.0, 0.0}, {0.0, 0.0, -values.at("spin")});
   Scene scene;

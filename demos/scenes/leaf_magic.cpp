@@ -3,6 +3,7 @@
 #include <numbers>
 #include <random>
 
+#include "core/model/errors.h"
 #include "core/modeller/material_table.h"
 #include "core/modeller/sheet.h"
 #include "core/modeller/thin_material.h"
@@ -47,13 +48,18 @@ class Random {
   double in(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_()) * 0x1p-64;
   }
+  Vec3 in_box(const Vec3& low, const Vec3& high) {
+    Vec3 at;
+    for (int axis = 0; axis < 3; ++axis) at[axis] = in(low[axis], high[axis]);
+    return at;
+  }
 
  private:
   std::mt19937_64 engine_;
 };
 
 Mat3 random_attitude(Random& random) {
-  const Vec3 axis(random.in(-1.0, 1.0), random.in(-1.0, 1.0), random.in(-1.0, 1.0));
+  const Vec3 axis = random.in_box({-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0});
   return Eigen::AngleAxisd(random.in(0.0, 2.0 * pi), axis.normalized()).toRotationMatrix();
 }
 
@@ -118,13 +124,16 @@ Scene build(const ParameterValues& values) {
   scene.seconds = 9.0;
   scene.air = Air{.wind = wind(values.at("wind"))};
   const auto leaves = std::llround(values.at("leaves"));
+  if (leaves < 1 || leaves > 5000) {
+    throw InputError({"scene leaf_magic: parameter leaves", "there would be " + std::to_string(leaves),
+                      "give 1 to 5000"});
+  }
   for (long long i = 0; i < leaves; ++i) {
     PhysicalModel model = leaf("leaf " + std::to_string(i + 1));
     model.parts[0].surface.colour = autumn_colour(random);
     model.parts[0].surface.specularity = 0.1;
     const Mat3 attitude = random_attitude(random);
-    place(model, attitude,
-          {random.in(-1.0, 1.0), random.in(0.1, 2.2), random.in(-1.0, 1.0)});
+    place(model, attitude, random.in_box({-1.0, 0.1, -1.0}, {1.0, 2.2, 1.0}));
     scene.objects.push_back(std::move(model));
   }
   scene.camera = {{0.0, 1.6, 4.6}, {0.0, 1.15, 0.0}, 34.0};

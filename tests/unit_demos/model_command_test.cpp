@@ -76,6 +76,19 @@ TEST_F(ModelCommand, IsDroppedByRun) {
   EXPECT_THAT(said.out, HasSubstr("rigid"));
 }
 
+TEST_F(ModelCommand, DropRefusesNothingAndWhatStartsBelowTheFloor) {
+  PhysicalModel nothing;
+  nothing.name = "nothing";
+  write_model(nothing, file_);
+  EXPECT_EQ(limber({"run", file_}).code, 2);
+  EXPECT_THAT(limber({"run", file_}).err, HasSubstr("no points"));
+  ASSERT_EQ(limber({"model", mesh_, "--softening", "1000", "-o", file_}).code, 0);
+  EXPECT_EQ(limber({"run", file_, "--set", "height=-1"}).code, 2);
+  EXPECT_EQ(limber({"run", file_, "--json", file_}).code, 2);
+  EXPECT_EQ(limber({"info", file_, "--json", file_}).code, 2);
+  EXPECT_EQ(read_model(file_).skins.size(), 1u);  // still there
+}
+
 TEST_F(ModelCommand, ListsTheMaterials) {
   const Said said = limber({"model", "--materials"});
   EXPECT_EQ(said.code, 0);
@@ -95,6 +108,7 @@ TEST_F(ModelCommand, RefusesWhatMakesNoSense) {
       {"model", mesh_, "--softening", "0.5"},
       {"model", mesh_, "--scale", "0"},
       {"model", mesh_, "-o", (folder_ / "none" / "a.limber").string()},
+      {"model", mesh_, "-o", mesh_},
   };
   for (const auto& arguments : wrong) {
     const Said said = limber(arguments);

@@ -58,9 +58,21 @@ TEST(Swing, HangsTogetherInItsWind) {
 
 TEST(Swing, IsMadeOfThreePartsOfDifferentStiffnessAndWeight) {
   const PhysicalModel model = build_scene("swing").objects[0];
-  EXPECT_EQ(model.geometry.subobjects.size(), 5u);  // seat, rope, glue, rope, glue
-  EXPECT_EQ(model.geometry.subobjects[0].name, "seat");
-  EXPECT_EQ(model.object.softening, 400.0);
+  const auto& parts = model.geometry.subobjects;
+  ASSERT_EQ(parts.size(), 5u);  // seat, rope, glue, rope, glue
+  const auto mass = [&](const Subobject& part) {
+    double sum = 0.0;
+    for (std::int32_t p = part.points.begin; p < part.points.end; ++p)
+      sum += model.points[PointId(std::size_t(p))].mass;
+    return sum;
+  };
+  EXPECT_NEAR(mass(parts[0]), 450.0 * 0.5 * 0.05 * 0.2, 1e-9);  // a board of spruce
+  EXPECT_NEAR(mass(parts[1]), 1480.0 * 1.13097e-4 * 1.68, 1e-4);  // 12 mm of hemp
+  EXPECT_NEAR(mass(parts[1]), mass(parts[3]), 1e-12);
+  const auto stiffness = [&](const Subobject& part) {
+    return model.edges[EdgeId(std::size_t(part.edges.begin))].stiffness;
+  };
+  EXPECT_GT(stiffness(parts[0]), 2.0 * stiffness(parts[1]));
 }
 
 TEST(LeafMagic, HasThreeHundredLeavesAndMore) {

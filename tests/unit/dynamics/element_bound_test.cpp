@@ -86,6 +86,17 @@ TEST(ElementBound, IsThatOfEveryElementByItself) {
   EXPECT_NEAR(element_frequency_bound(irregular) / plain_bound(irregular), 1.0, 2e-9);
 }
 
+// Light points between anchors of a million tonnes: the frequency is theirs, and two light points
+// that differ must not be taken for each other because the anchors dwarf both.
+TEST(ElementBound, TellsLightPointsBesideHeavyOnesApart) {
+  PhysicalModel model = test::block({.cells = {4, 1, 1}, .spacing = 0.1});
+  for (PointId p : ids_of(model.points)) {
+    const double x = model.geometry.points[p].x();
+    model.points[p].mass = x < 0.05 ? 1.4e-3 : x > 0.35 ? 0.5e-3 : 1e9;
+  }
+  EXPECT_NEAR(element_frequency_bound(model) / plain_bound(model), 1.0, 2e-9);
+}
+
 // One light point, found among hundreds of congruent elements.
 TEST(ElementBound, DoesNotMissTheOneElementThatDiffers) {
   PhysicalModel model = test::block({.cells = {5, 5, 5}, .spacing = 0.1});

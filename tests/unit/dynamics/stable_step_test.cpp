@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/model/errors.h"
 #include "tests/support/blocks.h"
 #include "tests/support/dense.h"
 #include "tests/support/lattices.h"
@@ -103,6 +104,21 @@ TEST(StableStep, IsWhereADampedOscillatorStartsToGrow) {
     EXPECT_LT(amplitude_after(20000, omega, zeta, 0.999 * dt), 100.0) << zeta;
     EXPECT_FALSE(amplitude_after(20000, omega, zeta, 1.001 * dt) < 1e6) << zeta;  // or not a number
   }
+}
+
+// Eigenvalues crowd at the end of a long rope's spectrum: to find the largest to ten digits would
+// take thousands of steps.
+TEST(HighestFrequency, OfALongRopeIsFound) {
+  const FrequencyBound bound = highest_frequency(chain(5000, 300.0, 0.5));
+  EXPECT_TRUE(bound.verified);
+  const double exact = 2.0 * std::sqrt(300.0 / 0.5);  // less (pi / 10000)^2 / 2
+  EXPECT_GT(bound.omega_max, exact * (1.0 - 1e-6));
+  EXPECT_LT(bound.omega_max, exact * 1.04);
+}
+
+TEST(HighestFrequency, BeyondAllNumbersIsRefused) {
+  EXPECT_THROW(highest_frequency(chain(3, 1e308, 0.5)), InputError);
+  EXPECT_THROW(highest_frequency(chain(3, 300.0, 1e-320)), InputError);
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "core/dynamics/lattice.h"
 #include "core/modeller/box_lattice.h"
 #include "core/modeller/cell_stiffness.h"
 #include "core/modeller/material_table.h"
+#include "core/modeller/thin_material.h"
 
 namespace limber {
 namespace {
@@ -106,6 +108,68 @@ TEST(ModellingNotes, SayByHowMuchARubberMisses) {
   EXPECT_THAT(notes[0].what, HasSubstr("its Poisson ratio is 0.499"));
   EXPECT_THAT(notes[0].what, HasSubstr("shear modulus is 19.9 % too high"));
   EXPECT_THAT(notes[0].what, HasSubstr("bulk modulus 99.6 % too low"));
+}
+
+// In plane stress G = E / (2 (1 + nu)) and the modulus against a change of area is
+// (C_1111 + C_1122) / 2 with C_1111 = E / (1 - nu^2), C_1122 = nu C_1111.
+TEST(PoissonMiss, OfSheetsComparesPlaneModuli) {
+  const auto shear = [](double nu) { return 1.0 / (2.0 * (1.0 + nu)); };
+  const auto area = [](double nu) { return (1.0 + nu) / (2.0 * (1.0 - nu * nu)); };
+  for (double nu : {0.0, 0.2, 1.0 / 3.0, 0.499}) {
+    EXPECT_NEAR(sheet_poisson_miss(nu).shear_ratio, shear(1.0 / 3.0) / shear(nu), 1e-12);
+    EXPECT_NEAR(sheet_poisson_miss(nu).bulk_ratio, area(1.0 / 3.0) / area(nu), 1e-12);
+  }
+}
+
+// One square with its diagonals, a metre above the origin.
+PhysicalModel square_sheet(const Material& material) {
+  GeometricModelBuilder builder;
+  builder.begin_subobject("square");
+  std::array<PointId, 4> p;
+  for (int i = 0; i < 4; ++i) p[i] = builder.add_point(Vec3(i == 1 || i == 2, i > 1, 1.0));
+  const std::array<std::array<PointId, 2>, 6> edges = {
+      {{p[0], p[1]}, {p[1], p[2]}, {p[2], p[3]}, {p[3], p[0]}, {p[0], p[2]}, {p[1], p[3]}}};
+  builder.add_cell(edges, split_square(p));
+  return with_sheet_material(builder.finish(), "sheet", material, {.thickness = 1e-3});
+}
+
+TEST(ModellingNotes, CompareSheetsWithAThird) {
+  Material metal = clay();
+  metal.poisson_ratio = 0.33;
+  const PhysicalModel right = square_sheet(metal);
+  const MaterialReport report = material_report(right);
+  EXPECT_EQ(report.solid_cells, 0u);
+  EXPECT_EQ(report.sheet_cells, 1u);
+  EXPECT_TRUE(modelling_notes(right, report, {&metal, 1}).empty());
+  metal.poisson_ratio = 0.2;
+  const auto notes = modelling_notes(right, report, {&metal, 1});
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].where, "sheet: material");
+  EXPECT_THAT(notes[0].what, HasSubstr("that of springs in a sheet is 1/3: the shear modulus is "
+                                       "10 % too low, the modulus against a change of area 20 %"));
+}
+
+TEST(ModellingNotes, SayNothingOfShearInRopes) {
+  GeometricModelBuilder builder;
+  builder.begin_subobject("rope");
+  builder.edge(builder.add_point(Vec3::Zero()), builder.add_point(Vec3::UnitX()));
+  Material soft = clay();
+  soft.poisson_ratio = 0.45;
+  const PhysicalModel rope = with_rope_material(builder.finish(), "rope", soft, 1e-4);
+  EXPECT_TRUE(modelling_notes(rope, material_report(rope), {&soft, 1}).empty());
+}
+
+TEST(ModellingNotes, RoundForPeople) {
+  const PhysicalModel model = box(Vec3::Constant(0.02), clay());
+  MaterialReport report = material_report(model);
+  report.softening = 1234567.0;
+  report.substeps_per_tick = 12.0;
+  report.substeps_per_tick_unsoftened = 12345678901.0;
+  const auto notes = modelling_notes(model, report);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_THAT(notes[0].what, HasSubstr("S is 1234567: 12 substeps a tick of 1/60 s instead of "
+                                       "12345678901; "));
+  EXPECT_THAT(notes[0].what, HasSubstr("multiplied by 1111"));
 }
 
 TEST(MaterialReport, OfAModelWithoutCellsOrSpringsIsEmpty) {

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/model/validate.h"
 #include "core/modeller/box_lattice.h"
+#include "core/modeller/mesh_refinement.h"
 #include "tests/support/meshes.h"
 
 namespace limber {
@@ -196,9 +198,88 @@ TEST(MeshLattice, RefusesWhatBoundsNoVolume) {
       refusal(bowl, 0.1),
       HasSubstr("is open: 48 sides of its triangles have no neighbour, and seen from inside, "));
   TriangleMesh flat{"flat", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
-  EXPECT_THAT(refusal(flat, 0.1), HasSubstr("is flat: its volume is 0 m^3"));
+  EXPECT_THAT(refusal(flat, 0.1), HasSubstr("is a sheet: encloses nothing, a volume of 0 m^3"));
   flat.triangles.pop_back();
-  EXPECT_THAT(refusal(flat, 0.1), HasSubstr("nobody can tell its inside from its outside"));
+  EXPECT_THAT(refusal(flat, 0.1), HasSubstr("is a sheet: encloses nothing, a volume of 0 m^3"));
+}
+
+// A square of 20 x 20, in waves of `height`.
+TriangleMesh cloth(double height) {
+  TriangleMesh mesh{"cloth", {}, {}};
+  for (int i = 0; i < 21 * 21; ++i) {
+    const double x = 0.05 * (i % 21), z = 0.05 * (i / 21);
+    mesh.positions.push_back({x, height * std::sin(9 * x) * std::cos(7 * z), z});
+    if (i % 21 == 20 || i / 21 == 20) continue;
+    mesh.triangles.push_back({i, i + 21, i + 1});
+    mesh.triangles.push_back({i + 1, i + 21, i + 22});
+  }
+  return mesh;
+}
+
+// At spacings that a box of this size would take and at one that it would not.
+TEST(MeshLattice, RefusesSheetsBeforeItNamesASpacing) {
+  TriangleMesh tilted = cloth(0.0);
+  for (Vec3& p : tilted.positions) p.y() = 0.3 * p.x() + 0.7 * p.z() + 2.0;
+  TriangleMesh two_sided = cloth(0.03);
+  two_sided = test::together(two_sided, test::inside_out(two_sided));
+  for (double spacing : {0.3, 0.04, 1e-4})
+    for (const TriangleMesh& mesh : {cloth(0.0), tilted, two_sided})
+      EXPECT_THAT(refusal(mesh, spacing), HasSubstr("is a sheet: encloses nothing"));
+  for (double spacing : {0.3, 0.04})
+    EXPECT_THAT(refusal(cloth(0.03), spacing), HasSubstr("is a sheet: encloses nothing"));
+}
+
+// One triangle less is still a plate 0.29 m thick, of which one layer of cells holds 0.2 m. Samples
+// are a third of a cell apart: the two sides are off by that much at most.
+TEST(MeshLattice, JudgesAMeshWithAHoleLikeItsClosedTwin) {
+  const TriangleMesh plate = refined(test::box_mesh({0, 0, 0}, {2, 0.29, 2}), 0.2, 100'000);
+  TriangleMesh pricked = plate;
+  pricked.triangles.pop_back();
+  EXPECT_THAT(refusal(plate, 0.2), HasSubstr("is too thin for cells of 0.2 m"));
+  EXPECT_THAT(refusal(pricked, 0.2), HasSubstr("is too thin for cells of 0.2 m"));
+  EXPECT_NEAR(sampled_moments(pricked, 0.2).volume, 1.16, 4 * 0.2 / 3.0);
+}
+
+// As a reader fills up a PLY that breaks off: with the last triangle, or with the first vertex.
+TEST(MeshLattice, RefusesManyCopies) {
+  const TriangleMesh ball = test::icosphere(1, 3);
+  for (const MeshTriangle& filler : {ball.triangles[1180], MeshTriangle{0, 0, 0}}) {
+    TriangleMesh broken = ball;
+    std::fill(broken.triangles.begin() + 1180, broken.triangles.end(), filler);
+    EXPECT_THAT(refusal(broken, 0.2), HasSubstr("99 of 1280 triangles are copies of others"));
+  }
+}
+
+// 1 m^3 and what of the handle of 0.6 x 0.5 x 0.5 m sticks out: 0.4 m of its length. The first of
+// its vertices is outside on one side, inside on the other.
+TEST(MeshLattice, TurnsAnInvertedHandle) {
+  const TriangleMesh pot = test::box_mesh({0, 0, 0}, {1, 1, 1});
+  for (double x : {0.8, -0.4}) {
+    const TriangleMesh handle = test::box_mesh({x, 0.25, 0.25}, {x + 0.6, 0.75, 0.75});
+    const MeshLattice made = lattice(test::together(pot, test::inside_out(handle)), 0.05);
+    EXPECT_NEAR(made.report.cells.volume, 1.1, 1e-9);
+    EXPECT_NEAR(made.report.mesh.volume, 1.1, 1e-9);
+    EXPECT_THAT(all_notes(made), HasSubstr("1 of its parts were inside out"));
+  }
+}
+
+// Shells keep their vertices: joined, the common side would belong to neither.
+TEST(MeshLattice, OrientsShellsThatTouch) {
+  const TriangleMesh box = test::box_mesh({0, 0, 0}, {1, 1, 1});
+  for (const TriangleMesh& other : {test::inside_out(test::box_mesh({1, 0, 0}, {2, 1, 1})),
+                                    test::moved(box, Vec3(-1, 1, 1).asDiagonal(), {2, 0, 0})}) {
+    const MeshLattice two = lattice(test::together(box, other), 0.1);
+    EXPECT_NEAR(two.report.mesh.volume, 2.0, 1e-9);
+    EXPECT_NEAR(two.report.cells.volume, 2.0, 1e-9);
+    EXPECT_THAT(all_notes(two), HasSubstr("1 of its parts were inside out"));
+  }
+}
+
+// Twice the same box is that box, whichever way they face.
+TEST(MeshLattice, CountsEqualShellsOnce) {
+  const TriangleMesh box = test::box_mesh({0, 0, 0}, {1, 1, 1});
+  for (const TriangleMesh& other : {box, test::inside_out(box)})
+    EXPECT_NEAR(lattice(test::together(box, other), 0.1).report.mesh.volume, 1.0, 1e-9);
 }
 
 TEST(MeshLattice, RefusesNumbersThatAreNone) {
@@ -218,7 +299,8 @@ TEST(MeshLattice, RefusesNumbersThatAreNone) {
 TEST(MeshLattice, RefusesWhatIsTooThinAndNamesASpacing) {
   const TriangleMesh plate = test::box_mesh({0, 0, 0}, {1, 0.06, 1});
   EXPECT_THAT(refusal(plate, 0.2), HasSubstr("thinner than a cell of 0.2 m: none is half full"));
-  EXPECT_THAT(refusal(plate, 0.2), HasSubstr("give a spacing of 0.026 m or less"));
+  EXPECT_THAT(refusal(plate, 0.2),
+              HasSubstr("give a spacing of 0.026 m or less, which makes about 3400 cells"));
   EXPECT_LT(std::abs(lattice(plate, 0.026).report.volume_error), 0.2);
   EXPECT_THAT(refusal(test::box_mesh({0, 0, 0}, {2, 0.15, 2}), 0.2), HasSubstr("off by 33.3 %"));
 }

@@ -67,6 +67,29 @@ TEST(ParticleCloud, ScatteredPlacesKeepTheirDistanceAndLeaveNoRoom) {
   EXPECT_LT(widest_gap, 1.5 * distance);
 }
 
+// Along a bar as thick as the distance no gap has room for another place: neighbours along it are
+// less than two distances apart.
+TEST(ParticleCloud, ScatteredPlacesFillThinBoxes) {
+  const double d = 0.01;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    std::vector<Vec3> places = scattered_in_box(Vec3::Zero(), {1.0, d, d}, d, seed);
+    EXPECT_GE(least_distance(places), d);
+    std::sort(places.begin(), places.end(),
+              [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
+    double widest = std::max(places.front().x(), 1.0 - places.back().x());
+    for (std::size_t i = 1; i < places.size(); ++i)
+      widest = std::max(widest, places[i].x() - places[i - 1].x());
+    EXPECT_LT(widest, 2.0 * d) << "seed " << seed << ", " << places.size() << " places";
+  }
+}
+
+// As many places as along a line, though the box is a millionth of the distance thick.
+TEST(ParticleCloud, EstimatesTheCountOfThinBoxes) {
+  const Vec3 high(1e4, 1e-7, 1e-7);
+  EXPECT_THAT([&] { scattered_in_box(Vec3::Zero(), high, 1e-4, 1); },
+              ThrowsMessage<InputError>(HasSubstr("100000000 points")));
+}
+
 TEST(ParticleCloud, ScatteredPlacesAreThoseOfTheSeed) {
   const std::vector<Vec3> places = scattered_in_sphere(kLow, 0.5, 0.1, 1);
   EXPECT_EQ(places, scattered_in_sphere(kLow, 0.5, 0.1, 1));

@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -106,13 +109,13 @@ TEST_F(ReadMesh, NamesFileDefectAndRemedy) {
   write_text(file("mesh.txt"), "v 0 0 0\n");
   EXPECT_THAT(refusal("mesh.txt"), HasSubstr("is not an OBJ, PLY, STL or glTF file"));
   fs::create_directory(file("folder.obj"));
-  EXPECT_THAT(refusal("folder.obj"), HasSubstr("there is no such file"));
+  EXPECT_THAT(refusal("folder.obj"), HasSubstr("folder.obj: is a folder; name a file in it"));
   for (const char* name : {"empty.obj", "empty.ply", "empty.stl", "empty.gltf", "empty.glb"}) {
     write_text(file(name), "");
-    EXPECT_THAT(refusal(name), HasSubstr(std::string(name) + ": cannot be read")) << name;
+    EXPECT_THAT(refusal(name), HasSubstr(std::string(name) + ": is empty; export")) << name;
   }
   write_text(file("points.obj"), "v 0 0 0\nv 1 0 0\n");
-  EXPECT_NE(refusal("points.obj"), "read");
+  EXPECT_THAT(refusal("points.obj"), HasSubstr("points.obj: holds no triangles; export"));
   test::write_obj(shape(), file("a.obj"));
   EXPECT_THAT(refusal("a.obj", 0.0), HasSubstr("the scale is 0"));
   EXPECT_THAT(refusal("a.obj", std::numeric_limits<double>::quiet_NaN()), HasSubstr("scale"));
@@ -122,7 +125,31 @@ TEST_F(ReadMesh, NamesFileDefectAndRemedy) {
 TEST_F(ReadMesh, ReadsOnlyWhatTheNameSays) {
   test::write_binary_stl(shape(), file("a.stl"));
   fs::rename(file("a.stl"), file("a.ply"));
-  EXPECT_THAT(refusal("a.ply"), HasSubstr("cannot be read"));
+  EXPECT_THAT(refusal("a.ply"), HasSubstr("a.ply: is cut short or is not a .ply file; write it"));
+}
+
+// Another user's, when the tests are run by one who may read all.
+TEST_F(ReadMesh, NamesWantOfPermission) {
+  test::write_obj(shape(), file("a.obj"));
+  fs::permissions(file("a.obj"), fs::perms::none);
+  const bool almighty = ::geteuid() == 0;
+  if (almighty) {
+    ASSERT_EQ(::seteuid(65534), 0);
+  }
+  const std::string text = refusal("a.obj");
+  if (almighty) {
+    ASSERT_EQ(::seteuid(0), 0);
+  }
+  EXPECT_THAT(text, HasSubstr("may not be read by this user; give the user permission"));
+}
+
+// The second triangle has a corner 9 of 3.
+TEST_F(ReadMesh, RefusesCornersThatTheFileDoesNotHave) {
+  write_text(file("a.ply"),
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+             "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+             "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 9\n");
+  EXPECT_THAT(refusal("a.ply"), HasSubstr("is cut short or is not a .ply file"));
 }
 
 // A sparse file: its size alone is looked at.
@@ -166,6 +193,72 @@ TEST(RunApart, OutlivesItsChild) {
     return "";
   };
   EXPECT_EQ(run_apart(endless, brief).failure, "it took too long");
+}
+
+// What a host may do to signals; undone at the end.
+class HostSignals {
+ public:
+  explicit HostSignals(sighandler_t on_child) : before_(std::signal(SIGCHLD, on_child)) {
+    sigset_t all;
+    sigfillset(&all);
+    sigdelset(&all, SIGCHLD);
+    ::sigprocmask(SIG_BLOCK, &all, &mask_);
+  }
+  ~HostSignals() {
+    ::sigprocmask(SIG_SETMASK, &mask_, nullptr);
+    std::signal(SIGCHLD, before_);
+  }
+
+ private:
+  sighandler_t before_;
+  sigset_t mask_;
+};
+
+void reap_children(int) {
+  while (::waitpid(-1, nullptr, WNOHANG) > 0) {
+  }
+}
+
+TEST(RunApart, NeedsNoStatusOfItsChild) {
+  for (sighandler_t on_child : {SIG_IGN, reap_children}) {
+    const HostSignals host(on_child);
+    const ApartResult result = run_apart([] { return std::string("bytes"); });
+    EXPECT_EQ(result.failure, "");
+    EXPECT_EQ(result.bytes, "bytes");
+    EXPECT_EQ(run_apart([] { return std::string(); }).failure, "");
+    EXPECT_NE(run_apart([]() -> std::string { std::abort(); }).failure, "");
+  }
+}
+
+// Signals that the host blocks end the child nevertheless.
+TEST(RunApart, EndsAChildOfAHostThatBlocksSignals) {
+  const HostSignals host(SIG_DFL);
+  const ApartLimits brief{.memory_bytes = std::size_t{1} << 30, .seconds = 1};
+  const auto mask_is_empty = [] {
+    sigset_t mask;
+    ::sigprocmask(SIG_BLOCK, nullptr, &mask);
+    return std::string(sigisemptyset(&mask) ? "empty" : "blocked");
+  };
+  EXPECT_EQ(run_apart(mask_is_empty, brief).bytes, "empty");
+  const auto endless = []() -> std::string {
+    for (volatile bool again = true; again;) {
+    }
+    return "";
+  };
+  EXPECT_EQ(run_apart(endless, brief).failure, "it took too long");
+}
+
+// One that blocks signals itself and takes no time of the processor is killed by the clock.
+TEST(RunApart, KillsAChildThatHearsNothing) {
+  const ApartLimits brief{.memory_bytes = std::size_t{1} << 30, .seconds = 1};
+  const auto deaf = []() -> std::string {
+    sigset_t all;
+    sigfillset(&all);
+    ::sigprocmask(SIG_BLOCK, &all, nullptr);
+    ::sleep(60);
+    return "woke up";
+  };
+  EXPECT_EQ(run_apart(deaf, brief).failure, "it took too long");
 }
 
 }  // namespace
