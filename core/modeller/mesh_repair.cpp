@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
-#include <set>
+#include <map>
 #include <tuple>
 
 #include "core/model/disjoint_sets.h"
@@ -22,13 +22,15 @@ double area_of(const TriangleMesh& mesh, const MeshTriangle& t) {
 }
 
 void drop_useless(RepairedMesh& out) {
-  std::set<MeshTriangle> seen;
+  std::map<MeshTriangle, std::size_t> seen;  // how often
   std::vector<MeshTriangle> kept;
   kept.reserve(out.mesh.triangles.size());
   for (const MeshTriangle& t : out.mesh.triangles) {
     MeshTriangle key = t;
     std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
-    if (!seen.insert(key).second)
+    const std::size_t times = ++seen[key];
+    out.most_copied = std::max(out.most_copied, times - 1);
+    if (times > 1)
       ++out.doubled_triangles;
     else if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
       ++out.collapsed_triangles;

@@ -12,6 +12,7 @@ struct RepairedMesh {
   std::size_t joined_positions = 0;     // that coincided exactly with an earlier one
   std::size_t collapsed_triangles = 0;  // dropped: two corners in one place
   std::size_t doubled_triangles = 0;    // dropped: there already, collapsed or not
+  std::size_t most_copied = 0;          // how many of those are copies of one triangle
   std::size_t turned_triangles = 0;     // ran against their neighbours
   bool turned_whole = false;            // the mesh was inside out
   std::size_t turned_parts = 0;         // parts beside others that were inside out

@@ -88,13 +88,16 @@ std::string mesh_table(const MeshLatticeReport& report) {
   return table.text();
 }
 
+// Counts have no exponent.
+std::string whole(double number) { return fmt::format("{:.0f}", std::ceil(number)); }
+
 std::string counts(const PhysicalModel& model, const MaterialReport& report) {
   return fmt::format(
       "{} points, {} edges, {} cells, {} kg\n"
       "{} substeps in a tick of 1/60 s with softening S {}, {} with S 1\n",
       grouped(model.points.size()), grouped(model.edges.size()), grouped(model.cells.size()),
-      significant(total_mass(model)), significant(report.substeps_per_tick),
-      significant(report.softening), significant(report.substeps_per_tick_unsoftened));
+      significant(total_mass(model)), whole(report.substeps_per_tick),
+      significant(report.softening), whole(report.substeps_per_tick_unsoftened));
 }
 
 void say_notes(const std::vector<Diagnostic>& notes, Terminal& terminal) {
