@@ -125,8 +125,7 @@ void CoSimulation::Impl::split_broken_pieces() {
   roles_stale_ = true;
 }
 
-void CoSimulation::Impl::split(const Piece& piece,
-                               std::vector<std::vector<std::int32_t>> groups) {
+void CoSimulation::Impl::split(const Piece& piece, std::vector<std::vector<std::int32_t>> groups) {
   SplitRecord record{.time = time_, .object = piece.object, .piece = piece.id};
   const Vec3 middle = rigid_motion(lattice_.motion, lattice_.mass, piece.points).centre;
   for (std::vector<std::int32_t>& points : groups) {
@@ -223,8 +222,7 @@ void CoSimulation::Impl::step_debris(double dt) {
   if (debris_.size() == 0) return;
   std::unordered_set<const btCollisionObject*> proxies;
   for (const auto& [body, piece] : piece_of_) proxies.insert(body);
-  counters_.retired_mass +=
-      debris_.step(world_, lattice_, proxies, dt, settings_.debris_lifetime);
+  counters_.retired_mass += debris_.step(world_, lattice_, proxies, dt, settings_.debris_lifetime);
 }
 
 void CoSimulation::Impl::count_time(double dt) {

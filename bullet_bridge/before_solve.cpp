@@ -253,7 +253,8 @@ void CoSimulation::Impl::refuse_step(double substeps) const {
   throw SimulationError(
       {stiffest->authored.name,
        "a tick would need " + std::to_string(std::llround(std::min(substeps, 1e15))) + " substeps",
-       "soften the material, coarsen the lattice or raise most_substeps (" +
+       "soften the material, coarsen the lattice, integrate it implicitly or raise most_substeps "
+       "(" +
            std::to_string(settings_.most_substeps) + ")"});
 }
 
@@ -280,10 +281,31 @@ CoSimulation::Impl::Surroundings CoSimulation::Impl::surroundings_of(
   return surroundings;
 }
 
-int CoSimulation::Impl::substeps_for(double dt) const {
-  const double wanted = std::ceil(dt / (time_operator_.largest_step() * settings_.step_scale));
+double CoSimulation::Impl::substeps_wanted(double dt) const {
+  return std::ceil(dt / (time_operator_.largest_step() * settings_.step_scale));
+}
+
+int CoSimulation::Impl::substeps_for(double dt) {
+  const bool automatic = settings_.integration == Integration::kAutomatic;
+  if (automatic && substeps_wanted(dt) > settings_.most_substeps) make_stiffest_implicit(dt);
+  const double wanted = substeps_wanted(dt);
   if (!(wanted <= settings_.most_substeps)) refuse_step(wanted);  // nor NaN
   return std::max(1, static_cast<int>(wanted));
+}
+
+// All whose springs alone would need too many substeps.
+void CoSimulation::Impl::make_stiffest_implicit(double dt) {
+  for (std::size_t o = 0; o < lattice_.objects.size(); ++o) {
+    const LatticeObject& object = lattice_.objects[o];
+    const double wanted = std::ceil(dt / (object.largest_step * settings_.step_scale));
+    if (time_operator_.is_implicit(o) || !(wanted > settings_.most_substeps)) continue;
+    time_operator_.make_implicit(o);
+    notes_.push_back({object.authored.name,
+                      "a tick would need " + std::to_string(std::llround(std::min(wanted, 1e15))) +
+                          " substeps, more than " + std::to_string(settings_.most_substeps) +
+                          ": it is integrated implicitly from now on and does not vibrate",
+                      "soften the material or coarsen the lattice if it should break on impact"});
+  }
 }
 
 void CoSimulation::Impl::step_lattices(double dt) {
@@ -312,9 +334,12 @@ void CoSimulation::Impl::note(const StepReport& report) {
   counters_.broken_edges += report.broken_edges;
   for (const BreakEvent& event : report.breaks) {
     const LatticeObject& object = lattice_.objects[event.object];
-    breaks_.push_back({event.time, static_cast<std::size_t>(event.object), event.where,
+    breaks_.push_back({event.time,
+                       static_cast<std::size_t>(event.object),
+                       event.where,
                        event.edge - object.edges.begin,
-                       event.cell < 0 ? -1 : event.cell - object.cells.begin, {}});
+                       event.cell < 0 ? -1 : event.cell - object.cells.begin,
+                       {}});
     break_points_.push_back(lattice_.springs[event.edge].a);
   }
 }

@@ -24,8 +24,8 @@ const CoSimulationSettings& valid(const CoSimulationSettings& settings) {
   require(settings.step_scale > 0.0 && std::isfinite(settings.step_scale),
           "step_scale is " + std::to_string(settings.step_scale),
           "give it a value above 0, up to 1");
-  require(settings.most_substeps > 0,
-          "most_substeps is " + std::to_string(settings.most_substeps), "allow one at least");
+  require(settings.most_substeps > 0, "most_substeps is " + std::to_string(settings.most_substeps),
+          "allow one at least");
   require(settings.debris_lifetime >= 0.0,
           "debris_lifetime is " + std::to_string(settings.debris_lifetime) + " s",
           "give it 0 or more, or infinity");
@@ -111,6 +111,7 @@ SurfaceModel CoSimulation::surface(std::size_t object) const {
 }
 
 const std::optional<Diagnostic>& CoSimulation::failure() const { return impl_->failure_; }
+const std::vector<Diagnostic>& CoSimulation::notes() const { return impl_->notes_; }
 
 std::size_t CoSimulation::object_count() const { return impl_->lattice_.objects.size(); }
 

@@ -11,6 +11,7 @@
 #include "bullet_bridge/hand_over.h"
 #include "bullet_bridge/precision.h"
 #include "bullet_bridge/switch_policy.h"
+#include "core/dynamics/spring_precision.h"
 #include "core/environment/environment.h"
 #include "core/model/errors.h"
 #include "core/model/physical_model.h"
@@ -27,11 +28,30 @@ enum class Representation {
   kAlwaysRigid,     // never breaks
 };
 
+#ifdef BT_USE_DOUBLE_PRECISION
+inline constexpr SpringPrecision kWorldSprings = SpringPrecision::kDouble;
+#else
+inline constexpr SpringPrecision kWorldSprings = SpringPrecision::kSingle;
+#endif
+
+// How lattices are integrated; docs/integrators.md says when each wins.
+enum class Integration {
+  kExplicit,   // symplectic Euler: what breaks on impact lives on its vibration
+  kImplicit,   // implicit Euler: no vibration, any stiffness, substeps for the contacts alone
+  kAutomatic,  // explicit; an object that would need more than most_substeps goes implicit, and
+               // CoSimulation::notes() says so
+};
+
 struct CoSimulationSettings {
   Representation representation = Representation::kSwitching;
   SwitchSettings switching = {};
   double step_scale = 1.0;     // (0, 1]: factor on the automatically chosen substep
-  int most_substeps = 100000;  // a tick that would need more is refused by name
+  int most_substeps = 100000;  // a tick that would need more is refused by name; see kAutomatic
+  Integration integration = Integration::kExplicit;
+  // How the forces of springs are summed. At first as precisely as the world: in single precision
+  // by vector instructions beside Bullet in float32, several times as fast (docs/performance.md),
+  // and in double precision beside float64. Motion is integrated in double precision either way.
+  SpringPrecision springs = kWorldSprings;
   // How long particles (points that lost all their edges) live, s: 0 or more, or infinity. Then
   // they stay where they are and nothing moves them any more; their mass is counted as retired.
   double debris_lifetime = std::numeric_limits<double>::infinity();
@@ -51,9 +71,9 @@ struct SwitchRecord {
 struct BreakRecord {
   double time = 0.0;  // s
   std::size_t object = 0;
-  Vec3 where;              // m
-  std::int32_t edge = 0;   // of the object
-  std::int32_t cell = -1;  // of the object: the first one it took with it; -1: none
+  Vec3 where;                        // m
+  std::int32_t edge = 0;             // of the object
+  std::int32_t cell = -1;            // of the object: the first one it took with it; -1: none
   std::optional<std::size_t> piece;  // that its first end belongs to after the tick; none: debris
 };
 
@@ -61,9 +81,9 @@ struct BreakRecord {
 struct SplitRecord {
   double time = 0.0;  // s, end of the tick
   std::size_t object = 0;
-  std::size_t piece = 0;           // what it was
+  std::size_t piece = 0;                // what it was
   std::vector<std::size_t> parts = {};  // the pieces it became
-  std::size_t particles = 0;       // and points that became debris
+  std::size_t particles = 0;            // and points that became debris
 };
 
 // One connected piece as it is now.
@@ -134,6 +154,9 @@ class CoSimulation {
   // Why the simulation of the lattices stopped, if it did; ask after every stepSimulation().
   // (Bullet cannot be left by an exception in the middle of a step.)
   const std::optional<Diagnostic>& failure() const;
+
+  // What was decided on the way that a user should know.
+  const std::vector<Diagnostic>& notes() const;
 
   std::size_t object_count() const;
   std::vector<PieceView> pieces() const;

@@ -28,6 +28,7 @@ class CoSimulation::Impl : public TickHooks {
   Impl(btDiscreteDynamicsWorld& world, const CoSimulationSettings& settings)
       : world_(world), settings_(settings), decorator_(world, *this) {
     time_operator_.keep_boundary(&boundary_);
+    time_operator_.watch_load(switching());
   }
 
   void before_solve(double dt) override;
@@ -42,7 +43,11 @@ class CoSimulation::Impl : public TickHooks {
   CoSimulationSettings settings_;
   // Rigid pieces' points are written when somebody asks for them.
   mutable Lattice lattice_;
-  TimeOperator time_operator_{lattice_};
+  TimeOperator time_operator_{lattice_,
+                              settings_.integration == Integration::kImplicit
+                                  ? Integrator::kImplicitEuler
+                                  : Integrator::kSymplecticEuler,
+                              settings_.springs};
   Environment environment_;
   BoundaryTracker boundary_;
   ContactSolver contacts_;
@@ -57,6 +62,7 @@ class CoSimulation::Impl : public TickHooks {
   bool stepped_lattice_ = false;
   std::size_t broken_in_tick_ = 0;
   std::optional<Diagnostic> failure_;
+  std::vector<Diagnostic> notes_;
   Counters counters_;
   std::vector<SwitchRecord> switches_;
   std::vector<BreakRecord> breaks_;
@@ -85,7 +91,9 @@ class CoSimulation::Impl : public TickHooks {
     std::vector<Piece*> carried;  // rigid pieces
   };
   Surroundings surroundings_of(const std::vector<Piece*>& flexible, double dt) const;
-  int substeps_for(double dt) const;
+  int substeps_for(double dt);
+  double substeps_wanted(double dt) const;
+  void make_stiffest_implicit(double dt);
   [[noreturn]] void refuse_step(double substeps) const;
   void note(const StepReport& report);
   bool switching() const { return settings_.representation == Representation::kSwitching; }

@@ -57,9 +57,9 @@ double Debris::step(btDiscreteDynamicsWorld& world, Lattice& lattice,
   return retired;
 }
 
-// Impacts press points into what they hit, and some break off there: a ray from inside finds nothing,
-// and the particle would fall for ever. On the straight line from the middle of the piece that it
-// came off to where it is, its way into a body nearby is the surface it was pressed into.
+// Impacts press points into what they hit, and some break off there: a ray from inside finds
+// nothing, and the particle would fall for ever. On the straight line from the middle of the piece
+// that it came off to where it is, its way into a body nearby is the surface it was pressed into.
 void Debris::lift_out(const Particle& particle, btDiscreteDynamicsWorld& world, Lattice& lattice,
                       const std::unordered_set<const btCollisionObject*>& ignored) const {
   constexpr double kDeepest = 4.0;  // contact radii: what is farther lies between them, not around

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/live_springs.h"
+
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 namespace {
@@ -18,17 +20,12 @@ PieceStrength strength_of(const Lattice& lattice, std::span<const std::int32_t> 
   PieceStrength strength;
   strength.weakest_strain = kUnbreakable;
   double stiffness = 0.0;  // sum k l^2, N m
-  for (std::int32_t p : points) {
-    strength.mass += lattice.mass[p];
-    for (std::int32_t e : lattice.point_edges[p]) {
-      const Spring& s = lattice.springs[e];
-      if (s.a != p || lattice.breaking.edge_broken[e]) continue;
-      stiffness += s.stiffness * s.rest_length * s.rest_length;
-      strength.weakest_strain =
-          std::min({strength.weakest_strain, s.break_threshold / s.rest_length,
-                    s.crush_threshold / s.rest_length});
-    }
-  }
+  for (std::int32_t p : points) strength.mass += lattice.mass[p];
+  for_each_live_spring(lattice, points, [&](const Spring& s) {
+    stiffness += s.stiffness * s.rest_length * s.rest_length;
+    strength.weakest_strain = std::min({strength.weakest_strain, s.break_threshold / s.rest_length,
+                                        s.crush_threshold / s.rest_length});
+  });
   const LatticeObject& object = lattice.objects[lattice.point_object[points[0]]];
   strength.wave_speed = std::sqrt(stiffness / (lattice_factor(object) * strength.mass));
   return strength;
@@ -53,15 +50,10 @@ double contact_load(const Lattice& lattice, std::span<const std::int32_t> points
 
 double largest_load(const Lattice& lattice, std::span<const std::int32_t> points) {
   double largest = 0.0;
-  for (std::int32_t p : points) {
-    for (std::int32_t e : lattice.point_edges[p]) {
-      const Spring& s = lattice.springs[e];
-      if (s.a != p || lattice.breaking.edge_broken[e]) continue;
-      const Vec3 d = lattice.motion[s.b].position - lattice.motion[s.a].position;
-      const double stretch = d.norm() - s.rest_length;
-      largest = std::max({largest, stretch / s.break_threshold, -stretch / s.crush_threshold});
-    }
-  }
+  for_each_live_spring(lattice, points, [&](const Spring& s) {
+    const double stretch = stretch_of(lattice, s);
+    largest = std::max({largest, stretch / s.break_threshold, -stretch / s.crush_threshold});
+  });
   return largest;
 }
 

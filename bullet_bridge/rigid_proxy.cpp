@@ -75,8 +75,7 @@ std::vector<ShapeItem> shape_items(const Lattice& lattice, std::span<const std::
 
 std::vector<BodyFace> faces_of(const Lattice& lattice, std::span<const std::int32_t> points,
                                const ProxyFrame& frame) {
-  const BodyMotion pose{.centre = frame.centre,
-                        .rotation = frame.orientation.toRotationMatrix()};
+  const BodyMotion pose{.centre = frame.centre, .rotation = frame.orientation.toRotationMatrix()};
   return body_faces(faces_in_air(lattice, points), lattice.motion, pose);
 }
 

@@ -81,8 +81,8 @@ class RigidProxy {
   FlightState start_of_flight() const;
 
   btDiscreteDynamicsWorld& world_;
-  std::vector<Vec3> local_;  // shape (points)
-  FlyingBody flying_;        // with the faces that feel the air
+  std::vector<Vec3> local_;                // shape (points)
+  FlyingBody flying_;                      // with the faces that feel the air
   std::optional<FlightState> flight_end_;  // of this tick
   ProxyShape shape_;
   std::unique_ptr<btRigidBody> body_;

@@ -8,6 +8,8 @@ pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)
 # Its CMake package in Debian 12 wants Draco beside it; pkg-config does not.
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
+find_package(hwy REQUIRED)
+find_package(TBB REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)

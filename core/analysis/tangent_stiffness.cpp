@@ -69,7 +69,31 @@ Mat3 spring_stiffness(double stiffness, double rest_length, const Vec3& d) {
   return transverse * Mat3::Identity() + (stiffness - transverse) * n * n.transpose();
 }
 
-SparseMatrix tangent_stiffness(const PhysicalModel& model, const FreePoints& free) {
+// 1 / sqrt(m) of every row.
+Eigen::VectorXd mass_scale(const PhysicalModel& model, const FreePoints& free) {
+  Eigen::VectorXd scale(free.size());
+  for (PointId p : free.points) {
+    scale.segment<3>(free.row[p]).setConstant(1.0 / std::sqrt(model.points[p].mass));
+  }
+  return scale;
+}
+
+double sideways_stiffness_bound(double rest_length, double length) {
+  return length < 0.5 * rest_length ? 1.0 : std::max(0.0, 1.0 - rest_length / length);
+}
+
+Mat3 spring_stiffness_bound(double stiffness, double rest_length, const Vec3& d) {
+  const double sideways = sideways_stiffness_bound(rest_length, d.norm());
+  const Vec3 n = d.normalized();
+  return stiffness * (sideways * Mat3::Identity() + (1.0 - sideways) * n * n.transpose());
+}
+
+namespace {
+
+using SpringStiffness = Mat3(double stiffness, double rest_length, const Vec3& d);
+
+SparseMatrix assembled(const PhysicalModel& model, const FreePoints& free,
+                       SpringStiffness* stiffness_of) {
   LowerTriangle lower;
   lower.reserve(21 * model.edges.size() + 6 * free.points.size());
   // The whole diagonal is there, for shifts.
@@ -77,13 +101,25 @@ SparseMatrix tangent_stiffness(const PhysicalModel& model, const FreePoints& fre
   for (EdgeId e : ids_of(model.edges)) {
     if (model.edges[e].broken) continue;
     const auto [a, b] = model.geometry.edges[e];
-    const Mat3 k = spring_stiffness(model.edges[e].stiffness, model.edges[e].rest_length,
-                                    model.geometry.points[b] - model.geometry.points[a]);
+    const Mat3 k = stiffness_of(model.edges[e].stiffness, model.edges[e].rest_length,
+                                model.geometry.points[b] - model.geometry.points[a]);
     lower.add(free.row[a], free.row[a], k);
     lower.add(free.row[b], free.row[b], k);
     lower.add(std::max(free.row[a], free.row[b]), std::min(free.row[a], free.row[b]), -k);
   }
   return lower.matrix(free.size());
+}
+
+SparseMatrix scaled(const PhysicalModel& model, SpringStiffness* stiffness_of) {
+  const FreePoints free = unpinned_points(model);
+  const Eigen::VectorXd scale = mass_scale(model, free);
+  return scale.asDiagonal() * assembled(model, free, stiffness_of) * scale.asDiagonal();
+}
+
+}  // namespace
+
+SparseMatrix tangent_stiffness(const PhysicalModel& model, const FreePoints& free) {
+  return assembled(model, free, spring_stiffness);
 }
 
 IdVector<PointId, Vec3> spring_forces(const PhysicalModel& model) {
@@ -100,19 +136,12 @@ IdVector<PointId, Vec3> spring_forces(const PhysicalModel& model) {
   return force;
 }
 
-// 1 / sqrt(m) of every row.
-Eigen::VectorXd mass_scale(const PhysicalModel& model, const FreePoints& free) {
-  Eigen::VectorXd scale(free.size());
-  for (PointId p : free.points) {
-    scale.segment<3>(free.row[p]).setConstant(1.0 / std::sqrt(model.points[p].mass));
-  }
-  return scale;
+SparseMatrix scaled_stiffness(const PhysicalModel& model) {
+  return scaled(model, spring_stiffness);
 }
 
-SparseMatrix scaled_stiffness(const PhysicalModel& model) {
-  const FreePoints free = unpinned_points(model);
-  const Eigen::VectorXd scale = mass_scale(model, free);
-  return scale.asDiagonal() * tangent_stiffness(model, free) * scale.asDiagonal();
+SparseMatrix scaled_stiffness_bound(const PhysicalModel& model) {
+  return scaled(model, spring_stiffness_bound);
 }
 
 }  // namespace limber

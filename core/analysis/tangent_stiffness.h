@@ -28,6 +28,14 @@ FreePoints sprung_points(const PhysicalModel& model);
 // being its tension turning with it (geometric stiffness). Coincident points have none.
 Mat3 spring_stiffness(double stiffness, double rest_length, const Vec3& d);
 
+// Stiffness across a spring over that along it, and at least as much as it has on its way from a
+// length to its rest length: 1 - L0 / L under tension; compression counts as none, and one shorter
+// than half its rest length may turn any way: 1.
+double sideways_stiffness_bound(double rest_length, double length);
+
+// spring_stiffness() with that across.
+Mat3 spring_stiffness_bound(double stiffness, double rest_length, const Vec3& d);
+
 // K = -dF/dx of the free points, N/m: its lower triangle. The pattern does not depend on positions.
 SparseMatrix tangent_stiffness(const PhysicalModel& model, const FreePoints& free);
 
@@ -40,5 +48,8 @@ Eigen::VectorXd mass_scale(const PhysicalModel& model, const FreePoints& free);
 // Lower triangle of M^-1/2 K M^-1/2 of the points that are not pinned: its eigenvalues are omega^2,
 // (rad/s)^2.
 SparseMatrix scaled_stiffness(const PhysicalModel& model);
+
+// The same by spring_stiffness_bound().
+SparseMatrix scaled_stiffness_bound(const PhysicalModel& model);
 
 }  // namespace limber

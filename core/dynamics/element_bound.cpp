@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/analysis/tangent_stiffness.h"
 #include "core/model/rounded_cache.h"
 
 namespace limber {
@@ -34,7 +35,8 @@ IdVector<PointId, double> stiffness_around(const PhysicalModel& model) {
 struct Element {
   struct Spring {
     int a, b;
-    Vec3 direction;    // unit
+    Vec3 direction;    // unit; none for coincident points
+    double sideways;   // stiffness across, of a spring under tension or that may turn any way
     double stiffness;  // N/m, this element's share
   };
   std::vector<Spring> springs;
@@ -48,7 +50,9 @@ double largest_eigenvalue(const Element& element) {
   for (const Element::Spring& s : element.springs) {
     const double scale_a = 1.0 / std::sqrt(element.mass[s.a]);
     const double scale_b = 1.0 / std::sqrt(element.mass[s.b]);
-    const Mat3 k = s.stiffness * s.direction * s.direction.transpose();
+    const Mat3 along = s.direction * s.direction.transpose();
+    const Mat3 k =
+        s.stiffness * (s.sideways * Mat3::Identity() + (1.0 - s.sideways) * along);
     scaled.block<3, 3>(3 * s.a, 3 * s.a) += scale_a * scale_a * k;
     scaled.block<3, 3>(3 * s.b, 3 * s.b) += scale_b * scale_b * k;
     scaled.block<3, 3>(3 * s.a, 3 * s.b) -= scale_a * scale_b * k;
@@ -65,9 +69,10 @@ void set_key(const Element& element, RoundedKey& key) {
   key.add(static_cast<std::int64_t>(element.mass.size()));
   // Each relative to itself: a light point beside a heavy one sets the frequency.
   for (double m : element.mass) key.add_relative(m);
-  for (const auto& [a, b, n, k] : element.springs) {
+  for (const auto& [a, b, n, sideways, k] : element.springs) {
     key.add(a);
     key.add(b);
+    key.add(sideways, direction);
     for (int axis = 0; axis < 3; ++axis) key.add(n[axis], direction);
     key.add_relative(k);
   }
@@ -130,8 +135,9 @@ class Elements {
     };
     const int sharers = std::max(1, sharers_[e.index()]);
     const Vec3 along = model_.geometry.points[b] - model_.geometry.points[a];
-    element_.springs.push_back(
-        {row(a), row(b), along.normalized(), model_.edges[e].stiffness / sharers});
+    element_.springs.push_back({row(a), row(b), along.normalized(),
+                                sideways_stiffness_bound(model_.edges[e].rest_length, along.norm()),
+                                model_.edges[e].stiffness / sharers});
     element_.mass[element_.springs.back().a] += element_.springs.back().stiffness;
     element_.mass[element_.springs.back().b] += element_.springs.back().stiffness;
   }

@@ -15,13 +15,21 @@ std::vector<bool> pinned_pieces(const Lattice& lattice, const Components& pieces
   return pinned;
 }
 
+// Where the point was when it had its velocity, m.
+Vec3 position_of(const Lattice& lattice, std::int32_t p, std::span<const double> lead) {
+  const auto& [position, velocity] = lattice.motion[p];
+  if (lead.empty()) return position;
+  return position - lead[lattice.point_object[p]] * velocity;
+}
+
 // rigid_motion() of every piece in two passes over the points.
-std::vector<RigidMotion> rigid_motions(const Lattice& lattice, const Components& pieces) {
+std::vector<RigidMotion> rigid_motions(const Lattice& lattice, const Components& pieces,
+                                       std::span<const double> lead) {
   std::vector<RigidMotion> bodies(pieces.count);
   for (std::int32_t p : lattice.dynamic_points) {
     RigidMotion& body = bodies[pieces.label[p]];
     body.mass += lattice.mass[p];
-    body.centre += lattice.mass[p] * lattice.motion[p].position;
+    body.centre += lattice.mass[p] * position_of(lattice, p, lead);
     body.velocity += lattice.mass[p] * lattice.motion[p].velocity;
   }
   for (RigidMotion& body : bodies) {
@@ -30,7 +38,7 @@ std::vector<RigidMotion> rigid_motions(const Lattice& lattice, const Components&
   }
   for (std::int32_t p : lattice.dynamic_points) {
     RigidMotion& body = bodies[pieces.label[p]];
-    const Vec3 r = lattice.motion[p].position - body.centre;
+    const Vec3 r = position_of(lattice, p, lead) - body.centre;
     const double m = lattice.mass[p];
     body.angular_momentum += m * r.cross(lattice.motion[p].velocity - body.velocity);
     body.inertia += m * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
@@ -43,7 +51,8 @@ std::vector<RigidMotion> rigid_motions(const Lattice& lattice, const Components&
 
 }  // namespace
 
-double damp_internally(Lattice& lattice, const Components& pieces, double t) {
+double damp_internally(Lattice& lattice, const Components& pieces, double t,
+                       std::span<const double> lead) {
   const auto undamped = [](const LatticeObject& object) {
     return object.authored.object.internal_damping == 0.0;
   };
@@ -52,16 +61,18 @@ double damp_internally(Lattice& lattice, const Components& pieces, double t) {
   for (std::size_t o = 0; o < share.size(); ++o) {
     share[o] = -std::expm1(-lattice.objects[o].authored.object.internal_damping * t);
   }
-  const std::vector<RigidMotion> bodies = rigid_motions(lattice, pieces);
+  const std::vector<RigidMotion> bodies = rigid_motions(lattice, pieces, lead);
   const std::vector<bool> pinned = pinned_pieces(lattice, pieces);
   double loss = 0.0;
   for (std::int32_t p : lattice.dynamic_points) {
     if (pinned[pieces.label[p]]) continue;
-    const double s = share[lattice.point_object[p]];
-    Vec3& v = lattice.motion[p].velocity;
-    const Vec3 vibration = v - bodies[pieces.label[p]].velocity_at(lattice.motion[p].position);
+    const std::int32_t object = lattice.point_object[p];
+    const double s = share[object];
+    auto& [x, v] = lattice.motion[p];
+    const Vec3 vibration = v - bodies[pieces.label[p]].velocity_at(position_of(lattice, p, lead));
     loss += 0.5 * lattice.mass[p] * (1.0 - (1.0 - s) * (1.0 - s)) * vibration.squaredNorm();
     v -= s * vibration;
+    if (!lead.empty()) x -= (lead[object] * s) * vibration;
   }
   return loss;
 }

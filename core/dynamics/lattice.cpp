@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/live_springs.h"
 #include "core/dynamics/spring_force.h"
 #include "core/dynamics/stable_step.h"
+#include "core/model/bounds.h"
+#include "core/model/median.h"
+#include "core/model/point_edges.h"
 #include "core/model/validate.h"
 
 namespace limber {
@@ -46,39 +50,18 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-IndexRows edges_of_points(const GeometricModel& geometry) {
-  IndexRows rows;
-  rows.start.assign(geometry.points.size() + 1, 0);
-  for (const Edge& e : geometry.edges) ++rows.start[e.a.value + 1], ++rows.start[e.b.value + 1];
-  for (std::size_t p = 0; p < geometry.points.size(); ++p) rows.start[p + 1] += rows.start[p];
-  rows.items.resize(rows.start.back());
-  std::vector<std::int32_t> next(rows.start.begin(), rows.start.end() - 1);
-  for (EdgeId e : ids_of(geometry.edges)) {
-    rows.items[next[geometry.edges[e].a.value]++] = e.value;
-    rows.items[next[geometry.edges[e].b.value]++] = e.value;
-  }
-  return rows;
-}
-
 // The links of the points just appended: linking all objects anew would cost the square of their
 // number. After append_springs().
 void append_point_links(Lattice& lattice, const GeometricModel& geometry,
                         const LatticeObject& object) {
-  lattice.point_edges = shifted_rows_appended(std::move(lattice.point_edges),
-                                              edges_of_points(geometry), object.edges.begin);
+  lattice.point_edges = shifted_rows_appended(std::move(lattice.point_edges), point_edges(geometry),
+                                              object.edges.begin);
   for (std::int32_t p = object.points.begin; p < object.points.end; ++p) {
     for (std::int32_t e : lattice.point_edges[p]) {
       const Spring& s = lattice.springs[e];
       lattice.point_neighbours.push_back(s.a == p ? s.b : s.a);
     }
   }
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double median_stiffness_per_mass(const PhysicalModel& model) {
@@ -88,22 +71,17 @@ double median_stiffness_per_mass(const PhysicalModel& model) {
     const double mean_mass = 0.5 * (model.points[edge.a].mass + model.points[edge.b].mass);
     ratios.push_back(model.edges[e].stiffness / mean_mass);
   }
-  return median(std::move(ratios));
+  return upper_median(std::move(ratios));
 }
 
 double median_rest_length(const PhysicalModel& model) {
   std::vector<double> lengths;
   for (const EdgeAttributes& e : model.edges) lengths.push_back(e.rest_length);
-  return median(std::move(lengths));
+  return upper_median(std::move(lengths));
 }
 
 double largest_extent(const PhysicalModel& model) {
-  Vec3 low = Vec3::Constant(kUnbreakable), high = -low;
-  for (const Vec3& p : model.geometry.points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return (high - low).maxCoeff();
+  return bounds_of(model.geometry.points).sizes().maxCoeff();
 }
 
 // omega_c^2 that bears columns of so many points, a spacing apart: 1/s^2, see kContactSinkShare.
@@ -236,6 +214,17 @@ bool joined(const Lattice& lattice, std::int32_t p, std::int32_t q) {
   return false;
 }
 
+double length_of(const Lattice& lattice, std::int32_t edge) {
+  const Spring& s = lattice.springs[edge];
+  return (lattice.motion[s.b].position - lattice.motion[s.a].position).norm();
+}
+
+bool is_overstretched(const Lattice& lattice, std::int32_t edge) {
+  const Spring& s = lattice.springs[edge];
+  const double stretch = length_of(lattice, edge) - s.rest_length;
+  return stretch > s.break_threshold || -stretch > s.crush_threshold;
+}
+
 std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   require_valid(model);
   LatticeObject object;
@@ -264,10 +253,10 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model) {
 // K <= K_springs + n omega_c^2 + k / m (Weyl; Gershgorin for n contacts of points of one mass, each
 // omega_c^2 m / 2), C <= beta K_springs + c / m.
 double largest_step(const LatticeObject& object, double stiffness, double damping) {
-  const double omega = std::sqrt(object.spring_frequency * object.spring_frequency +
-                                 object.contacts_at_once * object.contact_frequency *
-                                     object.contact_frequency +
-                                 stiffness / object.least_mass);
+  const double omega =
+      std::sqrt(object.spring_frequency * object.spring_frequency +
+                object.contacts_at_once * object.contact_frequency * object.contact_frequency +
+                stiffness / object.least_mass);
   const double rate = object.spring_damping + damping / object.least_mass;
   // Dampers alone: v' = (1 - C dt) v is stable to C dt = 2.
   if (omega == 0.0) return rate > 0.0 ? kStepSafety * 2.0 / rate : stable_step(0.0, 0.0);
@@ -319,14 +308,9 @@ PhysicalModel extract_model(const Lattice& lattice, std::size_t index) {
 
 double elastic_energy(const Lattice& lattice, std::span<const std::int32_t> points) {
   double energy = 0.0;
-  for (std::int32_t p : points) {
-    for (std::int32_t e : lattice.point_edges[p]) {
-      const Spring& s = lattice.springs[e];
-      if (s.a != p || lattice.breaking.edge_broken[e]) continue;
-      const Vec3 d = lattice.motion[s.b].position - lattice.motion[s.a].position;
-      energy += spring_energy(s.stiffness, d.norm() - s.rest_length);
-    }
-  }
+  for_each_live_spring(lattice, points, [&](const Spring& s) {
+    energy += spring_energy(s.stiffness, stretch_of(lattice, s));
+  });
   return energy;
 }
 

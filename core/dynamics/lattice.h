@@ -71,7 +71,7 @@ struct Lattice {
   // The springs that are integrated: unbroken, both ends dynamic. Compact copies, so that the inner
   // loop streams through them; one that breaks goes slack until the next rebuild. First those that
   // cannot break: they skip the check.
-  std::vector<Spring> active;                // shape (A)
+  std::vector<Spring> active;  // shape (A)
   std::size_t first_breakable = 0;
   std::vector<std::int32_t> active_edge;     // shape (A) -> edge
   std::vector<std::int32_t> active_of_edge;  // shape (E) -> active or -1
@@ -82,6 +82,12 @@ struct Lattice {
 
 // Are the points joined by an unbroken edge?
 bool joined(const Lattice& lattice, std::int32_t p, std::int32_t q);
+
+// Of the edge's spring as the points are now, m.
+double length_of(const Lattice& lattice, std::int32_t edge);
+
+// Has this edge passed one of its thresholds?
+bool is_overstretched(const Lattice& lattice, std::int32_t edge);
 
 // Appends a model; all its points start dynamic. Throws InputError where validate() objects.
 // Returns the index of the object. Call rebuild_active() afterwards.

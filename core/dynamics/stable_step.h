@@ -6,7 +6,8 @@
 
 namespace limber {
 
-// Upper bound on the highest angular frequency of the model as it is, rad/s.
+// Upper bound on the highest angular frequency of the model as it is, and on its way back to its
+// rest lengths where it is compressed or collapsed, rad/s.
 struct FrequencyBound {
   double omega_max = 0.0;  // never below the true value
   bool verified = false;   // and 0.5 % above it; else the bound by elements, 20 to 65 %

@@ -10,8 +10,8 @@
 namespace limber {
 
 // A hexahedral cell that a skin hangs on. Corner c is on the +x side for c & 1, +y for c & 2, +z
-// for c & 4, of the lattice's own axes. `grid` is where the cell is in that lattice: the place (x,
-// y, z) of a cell is (x - 1, y, z) of its neighbour at grid + (1, 0, 0).
+// for c & 4, of the lattice's own, right-handed axes. `grid` is where the cell is in that lattice:
+// the place (x, y, z) of a cell is (x - 1, y, z) of its neighbour at grid + (1, 0, 0).
 struct SkinCell {
   CellId cell;
   std::array<PointId, 8> corners;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "core/model/check_skins.h"
@@ -37,6 +38,39 @@ std::vector<PointId> points_of(const GeometricModel& g, const Cell& cell) {
   return points;
 }
 
+// Where corner number c is in a cube of side 1.
+std::array<int, 3> place_of(std::ptrdiff_t c) { return {int(c & 1), int(c >> 1 & 1), int(c >> 2)}; }
+
+// Do these corners lie in one side of the cube, anticlockwise seen from outside? Then
+// (b - a) x (c - a) is the side's unit normal.
+bool is_on_a_side(const std::array<std::ptrdiff_t, 3>& corners) {
+  const auto a = place_of(corners[0]), b = place_of(corners[1]), c = place_of(corners[2]);
+  int axes = 0;
+  bool outward = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+    const int normal = (b[l] - a[l]) * (c[m] - a[m]) - (b[m] - a[m]) * (c[l] - a[l]);
+    if (normal == 0) continue;
+    ++axes;
+    outward = outward && (normal > 0) == (a[k] == 1);
+  }
+  return axes == 1 && outward;
+}
+
+// The order is that of some right-handed axes when the cell's faces are the sides of the cube.
+// Which way these axes point, nobody can tell. The corners have to be the cell's points.
+bool in_order(const GeometricModel& g, const SkinCell& cell) {
+  const auto number = [&](PointId p) {
+    return std::find(cell.corners.begin(), cell.corners.end(), p) - cell.corners.begin();
+  };
+  const std::vector<FaceId>& faces = g.cells[cell.cell].faces;
+  return std::all_of(faces.begin(), faces.end(), [&](FaceId f) {
+    if (!g.faces.contains(f)) return true;  // G1 says so
+    const auto& [a, b, c] = g.faces[f].corners;
+    return is_on_a_side({number(a), number(b), number(c)});
+  });
+}
+
 void check_cell(const PhysicalModel& model, const SkinCell& cell, const Element& element,
                 DiagnosticList& out) {
   const GeometricModel& g = model.geometry;
@@ -46,9 +80,14 @@ void check_cell(const PhysicalModel& model, const SkinCell& cell, const Element&
   if (!exist) return;
   std::vector<PointId> corners(cell.corners.begin(), cell.corners.end());
   std::sort(corners.begin(), corners.end());
-  if (corners == points_of(g, g.cells[cell.cell])) return;
-  out.add(element.name(), say("S2 its corners are not the eight points of cell ", cell.cell.value),
-          "hang skins on hexahedral cells, by their own corners");
+  if (corners != points_of(g, g.cells[cell.cell])) {
+    out.add(element.name(),
+            say("S2 its corners are not the eight points of cell ", cell.cell.value),
+            "hang skins on hexahedral cells, by their own corners");
+  } else if (!in_order(g, cell)) {
+    out.add(element.name(), say("S2 its corners are not in the order of cell ", cell.cell.value),
+            "put corner c on the +x side for c & 1, +y for c & 2, +z for c & 4");
+  }
 }
 
 void check_vertex(const Skin& skin, const SkinVertex& vertex, const Element& element,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <vector>
 
@@ -13,13 +14,19 @@
 namespace limber {
 namespace {
 
-const double kLeastCosine = std::cos(std::acos(-1.0) / 6.0);  // of the turn between two edges
+constexpr double kLeastCosine = std::numbers::sqrt3 / 2.0;  // of 30 degrees, between two edges
 
 // The sheet around each point.
 struct Surroundings {
   IdVector<PointId, std::vector<PointId>> neighbours;  // ascending by edge
   IdVector<PointId, Vec3> normal;                      // m^2, sum of the faces' areas as vectors
   IdVector<PointId, double> area;                      // m^2, the point's share of the sheet
+
+  // False where there is none, and where it is folded flat: nothing says which way is out of it.
+  bool is_sheet_at(PointId p) const {
+    constexpr double kFolded = 1e-6;
+    return area[p] > 0.0 && normal[p].norm() > kFolded * area[p];
+  }
 };
 
 Surroundings surroundings_of(const GeometricModel& model) {
@@ -87,7 +94,8 @@ double mean_edge_length(const GeometricModel& model, const Pair& pair) {
 }
 
 // The springs of all pairs at a point. A line of edges that carries the share x of the sheet has
-// the stretch stiffness E t x area / h and the bending stiffness (E t^3 / 12) x area / h.
+// the stretch stiffness E t x area / h and the bending stiffness (E t^3 / 12) x area / h. Where
+// cells are oblong some carry nothing, and get a stiffness of 0.
 std::vector<double> stiffnesses(const GeometricModel& model, const std::vector<Pair>& pairs,
                                 const Vec3& normal, double area, const BendingSprings& springs) {
   std::vector<Vec3> chords;
@@ -99,9 +107,11 @@ std::vector<double> stiffnesses(const GeometricModel& model, const std::vector<P
     const double t = springs.thickness;
     const double stretch =
         springs.youngs_modulus * t * share[static_cast<Eigen::Index>(i)] * area / h;
-    const double wanted =
-        bending_spring_stiffness(stretch * t * t / 12.0, h, rise_of(model, pairs[i], normal));
-    result.push_back(std::min(wanted, springs.most_added_stretch * stretch / (4.0 * h)));
+    const double most = springs.most_added_stretch * stretch / (4.0 * h);
+    const double rise = rise_of(model, pairs[i], normal);
+    const bool flat = rise == 0.0;
+    const double wanted = flat ? most : bending_spring_stiffness(stretch * t * t / 12.0, h, rise);
+    result.push_back(std::min(wanted, most));
   }
   return result;
 }
@@ -150,7 +160,7 @@ int add_bending_springs(PhysicalModel& sheet, const BendingSprings& springs) {
   for (const auto& [a, b] : sheet.geometry.edges) joined.insert(std::minmax(a, b));
   int added = 0;
   for (PointId middle : ids_of(sheet.geometry.points)) {
-    if (!(around.area[middle] > 0.0)) continue;
+    if (!around.is_sheet_at(middle)) continue;
     const std::vector<Pair> pairs = pairs_at(sheet.geometry, around, middle);
     if (pairs.empty()) continue;
     const std::vector<double> stiffness =

@@ -33,6 +33,7 @@ struct BendingSprings {
 //   most most_added_stretch of it. It is reached where s is below t / sqrt(3 most_added_stretch),
 //   1.8 t for 0.1. What is flatter bends more easily than the material and only resembles it.
 // - Bent through flat to the other side, the arch snaps and keeps that shape too.
+// - Where the sheet is folded flat upon itself, across the fold, there are none.
 // The springs belong to no cell: they break by their own strain only.
 //
 // Returns how many were added. Throws InputError for values out of range, and for a model of more

@@ -21,7 +21,7 @@ struct Monomial {
   double weight;
 };
 
-std::array<Monomial, 15> monomials() {
+std::array<Monomial, 15> make_monomials() {
   constexpr std::array<double, 5> factorial = {1, 1, 2, 6, 24};
   std::array<Monomial, 15> all;
   std::size_t i = 0;
@@ -34,7 +34,10 @@ std::array<Monomial, 15> monomials() {
   return all;
 }
 
-const std::array<Monomial, 15> kMonomials = monomials();
+const std::array<Monomial, 15>& monomials() {
+  static const std::array<Monomial, 15> all = make_monomials();
+  return all;
+}
 
 double power(double x, int exponent) {
   double product = 1.0;
@@ -45,10 +48,9 @@ double power(double x, int exponent) {
 // n_i n_j n_k n_l
 SymmetricTensor fourth_power(const Vec3& n) {
   SymmetricTensor t;
-  for (std::size_t i = 0; i < kMonomials.size(); ++i) {
-    const auto& [p, q, r, weight] = kMonomials[i];
-    t[i] = weight * power(n.x(), p) * power(n.y(), q) * power(n.z(), r);
-  }
+  Eigen::Index i = 0;
+  for (const auto& [p, q, r, weight] : monomials())
+    t[i++] = weight * power(n.x(), p) * power(n.y(), q) * power(n.z(), r);
   return t;
 }
 
@@ -56,11 +58,11 @@ SymmetricTensor fourth_power(const Vec3& n) {
 // tensor of Young's modulus 1 and Poisson ratio 1/4, lambda = mu = 2/5.
 SymmetricTensor isotropic_tensor() {
   SymmetricTensor t;
-  for (std::size_t i = 0; i < kMonomials.size(); ++i) {
-    const auto& [p, q, r, weight] = kMonomials[i];
+  Eigen::Index i = 0;
+  for (const auto& [p, q, r, weight] : monomials()) {
     const bool even = p % 2 == 0 && q % 2 == 0 && r % 2 == 0;
     const bool one_axis = std::max({p, q, r}) == 4;
-    t[i] = weight * 0.4 * (one_axis ? 3.0 : even ? 1.0 : 0.0);
+    t[i++] = weight * 0.4 * (one_axis ? 3.0 : even ? 1.0 : 0.0);
   }
   return t;
 }
@@ -140,8 +142,9 @@ double anisotropy(std::span<const Vec3> edges_m, std::span<const double> stiffne
   }
   const SymmetricTensor isotropic = isotropic_tensor();
   double worst = 0.0;
-  for (std::size_t i = 0; i < kMonomials.size(); ++i) {
-    worst = std::max(worst, std::abs(tensor[i] - isotropic[i]) / kMonomials[i].weight);
+  for (Eigen::Index i = 0; i < tensor.size(); ++i) {
+    const double weight = monomials()[static_cast<std::size_t>(i)].weight;
+    worst = std::max(worst, std::abs(tensor[i] - isotropic[i]) / weight);
   }
   return worst / 1.2;  // the largest component of the isotropic tensor, C_1111 = 1.2 E
 }

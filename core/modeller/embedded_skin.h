@@ -4,17 +4,9 @@
 #include <vector>
 
 #include "core/model/skin.h"
-#include "core/modeller/hexahedral_cell.h"
-#include "core/modeller/voxels.h"
+#include "core/modeller/voxel_lattice.h"
 
 namespace limber {
-
-// A cell of the lattice in the grid it was made from.
-struct LatticeCell {
-  VoxelIndex place = {0, 0, 0};
-  CellId cell;
-  HexahedronCorners corners;
-};
 
 struct EmbeddedSkin {
   Skin skin;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/model/diagnostic_list.h"
+#include "core/modeller/cell_shape.h"
 #include "core/modeller/cell_stiffness.h"
 
 namespace limber {
@@ -61,8 +62,7 @@ ObjectChoice whole_object(std::span<const Material> materials, const WholeObject
   return choice;
 }
 
-// Sums what the cells bring. One cell after the other passes through the same few arrays: a million
-// cells would spend their time on allocations otherwise.
+// Sums what the cells bring.
 class CellSums {
  public:
   CellSums(PhysicalModel& model, std::span<const Material> materials, const MaterialChoice& which)
@@ -92,7 +92,7 @@ class CellSums {
  private:
   void add(CellId c, const std::string& part) {
     const Cell& cell = model_.geometry.cells[c];
-    read_shape(cell);
+    shape_.read(model_.geometry, cell);
     const Material& material = chosen({c, centre(), part});
     const double volume = cell_volume(model_.geometry, c);
     if (!(volume > 0.0)) {
@@ -104,23 +104,10 @@ class CellSums {
     add_springs(cell, volume, material);
   }
 
-  void read_shape(const Cell& cell) {
-    corners_.clear();
-    vectors_.clear();
-    for (EdgeId e : cell.edges) {
-      const auto [a, b] = model_.geometry.edges[e];
-      corners_.push_back(a);
-      corners_.push_back(b);
-      vectors_.push_back(model_.geometry.points[b] - model_.geometry.points[a]);
-    }
-    std::sort(corners_.begin(), corners_.end());
-    corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
-  }
-
   Vec3 centre() const {
     Vec3 sum = Vec3::Zero();
-    for (PointId p : corners_) sum += model_.geometry.points[p];
-    return sum / static_cast<double>(corners_.size());
+    for (PointId p : shape_.points) sum += model_.geometry.points[p];
+    return sum / static_cast<double>(shape_.points.size());
   }
 
   const Material& chosen(const CellPlace& place) {
@@ -137,12 +124,12 @@ class CellSums {
   }
 
   void add_mass(double mass) {
-    const double share = mass / static_cast<double>(corners_.size());
-    for (PointId p : corners_) model_.points[p].mass += share;
+    const double share = mass / static_cast<double>(shape_.points.size());
+    for (PointId p : shape_.points) model_.points[p].mass += share;
   }
 
   void add_springs(const Cell& cell, double volume, const Material& material) {
-    const CellFit& fit = fitter_.fit(vectors_);
+    const CellFit& fit = fitter_.fit(shape_.edges);
     const double scale = fit.stiffness_per_weight(volume, material.effective_modulus());
     const double strain_at_break = material.effective_strain_at_break();
     const double strain_at_crush = material.effective_strain_at_crush();
@@ -185,8 +172,7 @@ class CellSums {
   std::vector<std::size_t> cells_of_material_;
   std::vector<bool> in_a_cell_;  // shape (edges)
   CellFitter fitter_;
-  std::vector<PointId> corners_;  // of the present cell, ascending
-  std::vector<Vec3> vectors_;     // along its edges, m
+  CellShape shape_;  // of the present cell
 };
 
 }  // namespace

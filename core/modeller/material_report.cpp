@@ -7,6 +7,9 @@
 
 #include "core/dynamics/stable_step.h"
 #include "core/model/diagnostic_list.h"
+#include "core/model/median.h"
+#include "core/modeller/cell_kind.h"
+#include "core/modeller/cell_shape.h"
 #include "core/modeller/cell_stiffness.h"
 
 namespace limber {
@@ -24,61 +27,18 @@ struct ShapeQuality {
   double elongation = 1.0;
 };
 
-// The shape of one cell: its edges as vectors and its corners.
-struct Shape {
-  std::vector<Vec3> edges;
-  std::vector<Vec3> corners;
-};
-
-ShapeQuality quality_of(const Shape& shape) {
+ShapeQuality quality_of(const GeometricModel& geometry, const CellShape& shape) {
   // Neither modulus nor volume has a say: stiffness is proportional to both.
   const std::vector<double> k = isotropic_cell_stiffness(shape.edges, 1.0, 1.0);
-  return {anisotropy(shape.edges, k, 1.0, 1.0), elongation(shape.corners)};
-}
-
-void read_shape(const GeometricModel& geometry, const Cell& cell, Shape& shape,
-                std::vector<PointId>& points) {
-  shape.edges.clear();
-  shape.corners.clear();
-  points.clear();
-  for (EdgeId e : cell.edges) {
-    const auto [a, b] = geometry.edges[e];
-    shape.edges.push_back(geometry.points[b] - geometry.points[a]);
-    points.push_back(a);
-    points.push_back(b);
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  for (PointId p : points) shape.corners.push_back(geometry.points[p]);
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// Faces of a closed cell sum up to nothing, those of a flat one to its area. (The volume of a flat
-// cell depends on where the origin is.)
-bool is_sheet_cell(const GeometricModel& geometry, const Cell& cell) {
-  Vec3 sum = Vec3::Zero();
-  double total = 0.0;
-  for (FaceId f : cell.faces) {
-    const auto& [a, b, c] = geometry.faces[f].corners;
-    const Vec3& origin = geometry.points[a];
-    const Vec3 area = (geometry.points[b] - origin).cross(geometry.points[c] - origin);
-    sum += area;
-    total += area.norm();
-  }
-  return sum.norm() > 0.5 * total;
+  std::vector<Vec3> corners;
+  for (PointId p : shape.points) corners.push_back(geometry.points[p]);
+  return {anisotropy(shape.edges, k, 1.0, 1.0), elongation(corners)};
 }
 
 void judge_cells(const GeometricModel& geometry, MaterialReport& report) {
   // Sides of boxes are known to rounding: what is as long as the limit is not beyond it.
   constexpr double kLong = kLongestIsotropicBox * (1.0 + 1e-9);
-  Shape shape;
-  std::vector<PointId> points;
+  CellShape shape;
   RoundedKey key;
   RoundedCache<ShapeQuality> known;
   std::vector<double> anisotropies;
@@ -87,16 +47,16 @@ void judge_cells(const GeometricModel& geometry, MaterialReport& report) {
     const bool is_sheet = is_sheet_cell(geometry, cell);
     report.sheet_cells += is_sheet;
     if (is_sheet || !(cell_volume(geometry, CellId(c)) > 0.0)) continue;
-    read_shape(geometry, cell, shape, points);
+    shape.read(geometry, cell);
     set_shape_key(shape.edges, key);
-    const ShapeQuality quality = known.get(key, [&] { return quality_of(shape); });
+    const ShapeQuality quality = known.get(key, [&] { return quality_of(geometry, shape); });
     anisotropies.push_back(quality.anisotropy);
     report.worst_anisotropy = std::max(report.worst_anisotropy, quality.anisotropy);
     report.worst_elongation = std::max(report.worst_elongation, quality.elongation);
     report.long_cells += quality.elongation > kLong;
   }
   report.solid_cells = anisotropies.size();
-  report.median_anisotropy = median(std::move(anisotropies));
+  report.median_anisotropy = upper_median(std::move(anisotropies));
 }
 
 void judge_edges(const PhysicalModel& model, MaterialReport& report) {
@@ -221,7 +181,8 @@ void note_softening(const std::string& name, const MaterialReport& report, Notes
   notes.push_back(
       {name + ": softening",
        say("S is ", rounded(report.softening), ": ", rounded(report.substeps_per_tick),
-           " substeps a tick of 1/60 s instead of ", rounded(report.substeps_per_tick_unsoftened),
+           report.substeps_per_tick == 1.0 ? " substep" : " substeps",
+           " a tick of 1/60 s instead of ", rounded(report.substeps_per_tick_unsoftened),
            "; the modulus is divided by S, ", "strains at break are multiplied by ",
            rounded(std::sqrt(report.softening))),
        "what impact speed breaks it stays; loads at rest bend it S times as far"});

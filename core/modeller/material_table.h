@@ -29,6 +29,9 @@ struct NamedMaterial {
   Basis basis = Basis::kEstimate;  // of density, modulus, Poisson ratio and strain at break
   std::string_view source;
   std::string_view remark;  // what the numbers leave out; may be empty
+  // Which of them were compared with what; empty: none, they are typical values from memory of the
+  // source.
+  std::string_view checked = {};
 };
 
 // By name, ascending.

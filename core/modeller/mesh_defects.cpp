@@ -19,11 +19,6 @@ bool is_degenerate(const TriangleMesh& mesh, const MeshTriangle& t) {
   return (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).norm() == 0.0;
 }
 
-MeshTriangle lowest_first(MeshTriangle t) {
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
-}
-
 std::size_t doubled(const TriangleMesh& mesh) {
   std::vector<MeshTriangle> sorted;
   sorted.reserve(mesh.triangles.size());
@@ -97,6 +92,11 @@ void look_at_edges(const TriangleMesh& mesh, MeshDefects& defects) {
 }
 
 }  // namespace
+
+MeshTriangle lowest_first(MeshTriangle t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
 
 std::vector<MeshSide> sorted_sides(const TriangleMesh& mesh) {
   std::vector<MeshSide> sides;

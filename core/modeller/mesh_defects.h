@@ -34,6 +34,10 @@ struct MeshDefects {
 // one: with missing corners or positions that are not finite, only these are counted.
 MeshDefects mesh_defects(const TriangleMesh& mesh);
 
+// The same triangle from its lowest corner on: triangles with the same corners in the same sense
+// become equal.
+MeshTriangle lowest_first(MeshTriangle t);
+
 // A side of a triangle and where it is from.
 struct MeshSide {
   std::int32_t from = 0;

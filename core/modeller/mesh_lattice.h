@@ -59,8 +59,8 @@ struct MeshLattice {
 // that lie apart stay one object, in pieces; the notes count them.
 //
 // Throws InputError with the defect and its numbers for a spacing that is not positive; a mesh
-// without triangles, with corners that do not exist or positions that are not finite; more than 5 %
-// of the triangles copies of others, as in a file that breaks off; a surface that bounds no volume
+// without triangles, with corners that do not exist or positions that are not finite; more than 8 %
+// of the triangles copies of one, as in a file that breaks off; a surface that bounds no volume
 // (a sheet, or so open that from inside more than a quarter of all directions lead out through
 // holes); winding numbers that do not tell inside from outside (ambiguous cells more than 30 % of
 // the surface cells); a mesh too thin for the spacing (no cell kept; volume or inertia off by more
@@ -69,7 +69,8 @@ struct MeshLattice {
 MeshLattice mesh_lattice(const TriangleMesh& mesh, const MeshLatticeOptions& options);
 
 // Moments of what is inside by winding numbers at cubes of `spacing_m`, fine enough to judge the
-// lattice of a mesh that has no exact ones.
+// lattice of a mesh that has no exact ones. Throws InputError, as mesh_lattice() does, for a
+// senseless spacing or mesh and where the mesh's box takes more than 3.2e7 cubes.
 SolidMoments sampled_moments(const TriangleMesh& mesh, double spacing_m);
 
 }  // namespace limber

@@ -21,6 +21,8 @@ class EdgeSplitter {
     }
   }
 
+  double longest_edge() const { return longest_met_; }  // m, before the split
+
   // How many triangles there will be.
   std::size_t triangles() const {
     std::size_t n = middle_.size();
@@ -39,6 +41,7 @@ class EdgeSplitter {
  private:
   std::int32_t middle_of(std::int32_t a, std::int32_t b) {
     const Vec3 &p = mesh_.positions[a], &q = mesh_.positions[b];
+    longest_met_ = std::max(longest_met_, (q - p).norm());
     if ((q - p).norm() <= longest_) return -1;
     added_.push_back(0.5 * (p + q));
     return static_cast<std::int32_t>(mesh_.positions.size() + added_.size() - 1);
@@ -78,18 +81,20 @@ class EdgeSplitter {
   }
 
   TriangleMesh& mesh_;
-  double longest_;
+  double longest_;                    // m, that stays whole
+  double longest_met_ = 0.0;          // m
   std::vector<MeshTriangle> middle_;  // triangle -> vertices on its sides
   std::vector<Vec3> added_;
 };
 
 }  // namespace
 
-TriangleMesh refined(TriangleMesh mesh, double longest_m, std::size_t most_triangles) {
+RefinedMesh refined(TriangleMesh mesh, double longest_m, std::size_t most_triangles) {
   for (;;) {
     EdgeSplitter splitter(mesh, longest_m);
     const std::size_t wanted = splitter.triangles();
-    if (wanted == mesh.triangles.size() || wanted > most_triangles) return mesh;
+    if (wanted == mesh.triangles.size() || wanted > most_triangles)
+      return {std::move(mesh), splitter.longest_edge()};
     splitter.apply();
   }
 }

@@ -1,8 +1,8 @@
 #include "core/modeller/mesh_repair.h"
 
 #include <algorithm>
-#include <numeric>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "core/model/disjoint_sets.h"
@@ -26,9 +26,7 @@ void drop_useless(RepairedMesh& out) {
   std::vector<MeshTriangle> kept;
   kept.reserve(out.mesh.triangles.size());
   for (const MeshTriangle& t : out.mesh.triangles) {
-    MeshTriangle key = t;
-    std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
-    const std::size_t times = ++seen[key];
+    const std::size_t times = ++seen[lowest_first(t)];
     out.most_copied = std::max(out.most_copied, times - 1);
     if (times > 1)
       ++out.doubled_triangles;

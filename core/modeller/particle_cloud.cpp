@@ -5,39 +5,30 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <random>
 
 #include "core/model/diagnostic_list.h"
 #include "core/model/errors.h"
+#include "core/model/random.h"
 #include "core/modeller/shape_checks.h"
 
 namespace limber {
 namespace {
 
-const std::string kWhere = "particle cloud";
+constexpr const char* kWhere = "particle cloud";
 
-struct Box {
-  Vec3 low, high;  // m
-
-  Vec3 size() const { return high - low; }
-  bool contains(const Vec3& p) const {
-    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
-  }
-};
-
-void require_usable(const Box& box, const std::string& what, double distance_m) {
-  require_finite(kWhere, "a corner of the box", box.low);
-  require_finite(kWhere, "a corner of the box", box.high);
+void require_usable(const Box3& box, const std::string& what, double distance_m) {
+  require_finite(kWhere, "a corner of the box", box.min());
+  require_finite(kWhere, "a corner of the box", box.max());
   require_positive(kWhere, what, distance_m, "m");
-  if (!((box.size().array() > 0.0).all())) {
+  if (!((box.sizes().array() > 0.0).all())) {
     throw InputError(
         {kWhere, "the box is empty", "give the lowest corner first, then the highest"});
   }
-  const auto count = (box.size() / distance_m).cwiseMax(1.0).prod();  // thin boxes: one across
+  const auto count = (box.sizes() / distance_m).cwiseMax(1.0).prod();  // thin boxes: one across
   require_affordable(kWhere, count, "give a larger " + what);
 }
 
-Box box_around(const Vec3& centre_m, double radius_m) {
+Box3 box_around(const Vec3& centre_m, double radius_m) {
   require_positive(kWhere, "radius", radius_m, "m");
   return {centre_m - Vec3::Constant(radius_m), centre_m + Vec3::Constant(radius_m)};
 }
@@ -58,43 +49,26 @@ std::vector<Vec3> grid(const Vec3& low, std::array<int, 3> n, double spacing) {
   return places;
 }
 
-// std::mt19937_64 is the same everywhere; the standard's distributions are not.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
+std::size_t index_below(std::size_t n, Random& random) {
+  return std::min(n - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(n)));
+}
 
-  // In [0, 1), 53 bits.
-  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
-
-  std::size_t index_below(std::size_t n) {
-    return std::min(n - 1, static_cast<std::size_t>(uniform() * static_cast<double>(n)));
-  }
-
-  Vec3 in_box(const Box& box) {
-    const double x = uniform(), y = uniform(), z = uniform();
-    return box.low + Vec3(x, y, z).cwiseProduct(box.size());
-  }
-
-  // Evenly in the shell between one and two distances from the origin.
-  Vec3 in_shell(double distance) {
-    const double radius = distance * std::cbrt(1.0 + 7.0 * uniform());
-    const double cosine = 2.0 * uniform() - 1.0;
-    const double azimuth = 2.0 * std::numbers::pi * uniform();
-    const double sine = std::sqrt(1.0 - cosine * cosine);
-    return radius * Vec3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+// Evenly in the shell between one and two distances from the origin.
+Vec3 in_shell(double distance, Random& random) {
+  const double radius = distance * std::cbrt(1.0 + 7.0 * random.uniform());
+  const double cosine = 2.0 * random.uniform() - 1.0;
+  const double azimuth = 2.0 * std::numbers::pi * random.uniform();
+  const double sine = std::sqrt(1.0 - cosine * cosine);
+  return radius * Vec3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
+}
 
 // Places with a least distance, found again by a grid whose cells (sides least distance / sqrt(3))
 // hold one place each.
 class SpacedPlaces {
  public:
-  SpacedPlaces(const Box& box, double least_distance)
+  SpacedPlaces(const Box3& box, double least_distance)
       : box_(box), least_(least_distance), side_(least_distance / std::numbers::sqrt3) {
-    for (int axis = 0; axis < 3; ++axis) n_[axis] = 1 + int(box.size()[axis] / side_);
+    for (int axis = 0; axis < 3; ++axis) n_[axis] = 1 + int(box.sizes()[axis] / side_);
     cell_.assign(std::size_t(n_[0]) * std::size_t(n_[1]) * std::size_t(n_[2]), -1);
   }
 
@@ -104,11 +78,11 @@ class SpacedPlaces {
   bool is_taken(std::size_t cell) const { return cell_[cell] >= 0; }
 
   // What of the box is in this cell.
-  Box box_of(std::size_t cell) const {
+  Box3 box_of(std::size_t cell) const {
     const std::size_t nx = std::size_t(n_[0]), ny = std::size_t(n_[1]);
     const Vec3 at(double(cell % nx), double(cell / nx % ny), double(cell / nx / ny));
-    const Vec3 low = (box_.low + side_ * at).cwiseMin(box_.high);
-    return {low, (low + Vec3::Constant(side_)).cwiseMin(box_.high)};
+    const Vec3 low = (box_.min() + side_ * at).cwiseMin(box_.max());
+    return {low, (low + Vec3::Constant(side_)).cwiseMin(box_.max())};
   }
 
   bool has_room_at(const Vec3& p) const {
@@ -133,7 +107,7 @@ class SpacedPlaces {
   std::array<int, 3> cell_of(const Vec3& p) const {
     std::array<int, 3> at;
     for (int axis = 0; axis < 3; ++axis) {
-      at[axis] = std::clamp(int((p[axis] - box_.low[axis]) / side_), 0, n_[axis] - 1);
+      at[axis] = std::clamp(int((p[axis] - box_.min()[axis]) / side_), 0, n_[axis] - 1);
     }
     return at;
   }
@@ -143,7 +117,7 @@ class SpacedPlaces {
            std::size_t(n_[0]) * (std::size_t(at[1]) + std::size_t(n_[1]) * std::size_t(at[2]));
   }
 
-  Box box_;
+  Box3 box_;
   double least_, side_;
   std::array<int, 3> n_;
   std::vector<std::int32_t> cell_;  // the place in each, or -1
@@ -165,10 +139,10 @@ bool added(const Vec3& p, const Inside& inside, SpacedPlaces& spaced) {
 void spread_from(const Vec3& first, const Inside& inside, double least_distance,
                  SpacedPlaces& spaced, Random& random) {
   for (std::vector<Vec3> active = {first}; !active.empty();) {
-    const std::size_t at = random.index_below(active.size());
+    const std::size_t at = index_below(active.size(), random);
     bool found = false;
     for (int i = 0; i < kTries && !found; ++i) {
-      const Vec3 p = active[at] + random.in_shell(least_distance);
+      const Vec3 p = active[at] + in_shell(least_distance, random);
       found = added(p, inside, spaced);
       if (found) active.push_back(p);
     }
@@ -180,7 +154,7 @@ void spread_from(const Vec3& first, const Inside& inside, double least_distance,
 
 // The front of new places dies out where most of each shell is outside: in boxes thinner than the
 // distance nearly at once. So each cell of the grid that is still empty may start it anew.
-std::vector<Vec3> scattered(const Box& box, const Inside& inside, const Vec3& first,
+std::vector<Vec3> scattered(const Box3& box, const Inside& inside, const Vec3& first,
                             double least_distance, Random& random) {
   SpacedPlaces spaced(box, least_distance);
   spaced.add(first);
@@ -208,16 +182,16 @@ GeometricModel particle_cloud(std::span<const Vec3> positions_m, const std::stri
 }
 
 std::vector<Vec3> grid_in_box(const Vec3& low_m, const Vec3& high_m, double spacing_m) {
-  const Box box{low_m, high_m};
+  const Box3 box(low_m, high_m);
   require_usable(box, "spacing", spacing_m);
   std::array<int, 3> n;
   Vec3 first;
   for (int axis = 0; axis < 3; ++axis) {
-    n[axis] = fitting(box.size()[axis], spacing_m);
+    n[axis] = fitting(box.sizes()[axis], spacing_m);
     first[axis] = 0.5 * (low_m[axis] + high_m[axis] - (n[axis] - 1) * spacing_m);
     if (n[axis] > 0) continue;
     throw InputError({kWhere,
-                      say("the box is ", box.size()[axis], " m long along axis ", axis,
+                      say("the box is ", box.sizes()[axis], " m long along axis ", axis,
                           ", less than the spacing of ", spacing_m, " m"),
                       "give a smaller spacing"});
   }
@@ -225,7 +199,7 @@ std::vector<Vec3> grid_in_box(const Vec3& low_m, const Vec3& high_m, double spac
 }
 
 std::vector<Vec3> grid_in_sphere(const Vec3& centre_m, double radius_m, double spacing_m) {
-  const Box box = box_around(centre_m, radius_m);
+  const Box3 box = box_around(centre_m, radius_m);
   require_usable(box, "spacing", spacing_m);
   const int half = fitting(radius_m, spacing_m);
   const int n = 2 * half + 1;
@@ -237,7 +211,7 @@ std::vector<Vec3> grid_in_sphere(const Vec3& centre_m, double radius_m, double s
 
 std::vector<Vec3> scattered_in_box(const Vec3& low_m, const Vec3& high_m, double least_distance_m,
                                    std::uint64_t seed) {
-  const Box box{low_m, high_m};
+  const Box3 box(low_m, high_m);
   require_usable(box, "least distance", least_distance_m);
   Random random(seed);
   const Vec3 first = random.in_box(box);
@@ -247,7 +221,7 @@ std::vector<Vec3> scattered_in_box(const Vec3& low_m, const Vec3& high_m, double
 
 std::vector<Vec3> scattered_in_sphere(const Vec3& centre_m, double radius_m,
                                       double least_distance_m, std::uint64_t seed) {
-  const Box box = box_around(centre_m, radius_m);
+  const Box3 box = box_around(centre_m, radius_m);
   require_usable(box, "least distance", least_distance_m);
   const auto inside = [&](const Vec3& p) { return (p - centre_m).norm() <= radius_m; };
   Random random(seed);

@@ -17,7 +17,7 @@ constexpr int kSamplesAlong = 512;   // of the range of v
 constexpr int kMeridians = 32;       // over which arc lengths along v are averaged
 
 // Rows of equilateral triangles are this part of their sides apart.
-const double kRowHeight = std::sqrt(3.0) / 2.0;
+constexpr double kRowHeight = std::numbers::sqrt3 / 2.0;
 
 // An end ring of a smaller radius becomes a pole, as part of the spacing.
 constexpr double kPoleRadius = 0.6;

@@ -115,12 +115,9 @@ void add_cell_stiffness(PhysicalModel& model, const Cell& cell, const CellArea& 
 }
 
 void require_every_edge_in_a_cell(const PhysicalModel& model) {
-  std::vector<bool> in_cell(model.edges.size(), false);
-  for (const Cell& cell : model.geometry.cells) {
-    for (EdgeId e : cell.edges) in_cell[e.index()] = true;
-  }
+  const IndexRows cells = edge_cells(model.geometry);
   for (EdgeId e : ids_of(model.edges)) {
-    if (in_cell[e.index()]) continue;
+    if (!cells[e.index()].empty()) continue;
     throw InputError({say(model.name, ": edge ", e.value),
                       "it belongs to no cell, so the material gives it no stiffness",
                       "put it into a cell, or glue what is no sheet to it afterwards"});

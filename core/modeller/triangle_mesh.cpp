@@ -1,5 +1,7 @@
 #include "core/modeller/triangle_mesh.h"
 
+#include "core/model/bounds.h"
+
 namespace limber {
 namespace {
 
@@ -58,12 +60,8 @@ double surface_area(const TriangleMesh& mesh) {
 
 std::pair<Vec3, Vec3> bounding_box(const TriangleMesh& mesh) {
   if (mesh.positions.empty()) return {Vec3::Zero(), Vec3::Zero()};
-  Vec3 low = mesh.positions.front(), high = low;
-  for (const Vec3& p : mesh.positions) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return {low, high};
+  const Box3 box = bounds_of(mesh.positions);
+  return {box.min(), box.max()};
 }
 
 }  // namespace limber

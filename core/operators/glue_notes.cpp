@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/model/diagnostic_list.h"
+#include "core/model/median.h"
 
 namespace limber {
 namespace {
@@ -11,13 +12,6 @@ constexpr double kSpacings = 1.5;
 constexpr double kPoints = 2.0;
 constexpr std::size_t kBondsOfAPoint = 9;
 constexpr double kLengths = 3.0;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 IdVector<PointId, double> shortest_edges(const PhysicalModel& model) {
   IdVector<PointId, double> shortest(model.points.size(), kUnbreakable);
@@ -46,7 +40,7 @@ GlueSeam::Side side_of(const PhysicalModel& model, std::span<const PointPair> bo
     side.most_bonds = count[p];
     side.most_bonded = p;
   }
-  side.spacing_m = median(std::move(spacings));
+  side.spacing_m = upper_median(std::move(spacings));
   return side;
 }
 
@@ -120,7 +114,7 @@ GlueSeam glue_seam(const PhysicalModel& a, const PhysicalModel& b,
   if (lengths.empty()) return seam;
   seam.shortest_m = *std::ranges::min_element(lengths);
   seam.longest_m = *std::ranges::max_element(lengths);
-  seam.median_m = median(std::move(lengths));
+  seam.median_m = upper_median(std::move(lengths));
   return seam;
 }
 

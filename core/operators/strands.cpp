@@ -7,13 +7,6 @@ double strand_radius(const PhysicalModel& model, std::size_t subobject) {
   return model.parts[subobject].surface.strand_radius;
 }
 
-std::vector<bool> in_cells(const GeometricModel& geometry) {
-  std::vector<bool> inside(geometry.edges.size(), false);
-  for (const Cell& cell : geometry.cells)
-    for (EdgeId e : cell.edges) inside[e.index()] = true;
-  return inside;
-}
-
 std::vector<bool> have_edges(const GeometricModel& geometry) {
   std::vector<bool> joined(geometry.points.size(), false);
   for (const Edge& edge : geometry.edges) joined[edge.a.index()] = joined[edge.b.index()] = true;
@@ -21,14 +14,14 @@ std::vector<bool> have_edges(const GeometricModel& geometry) {
 }
 
 void add_ropes(const PhysicalModel& model, std::vector<Strand>& all) {
-  const std::vector<bool> of_cell = in_cells(model.geometry);
+  const IndexRows cells = edge_cells(model.geometry);
   for (std::size_t s = 0; s < model.geometry.subobjects.size(); ++s) {
     const double radius = strand_radius(model, s);
     if (radius == 0.0) continue;
     const IdRange<EdgeId>& edges = model.geometry.subobjects[s].edges;
     for (std::int32_t e = edges.begin; e < edges.end; ++e) {
       const EdgeId id(static_cast<std::size_t>(e));
-      if (of_cell[id.index()] || model.edges[id].broken) continue;
+      if (!cells[id.index()].empty() || model.edges[id].broken) continue;
       all.push_back({model.geometry.edges[id].a, model.geometry.edges[id].b, static_cast<int>(s),
                      radius});
     }

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/dynamics/internal_damping.h"
-#include "core/dynamics/spring_force.h"
 #include "core/model/errors.h"
+#include "core/threads/parallel_for.h"
 
 namespace limber {
 namespace {
@@ -15,6 +15,22 @@ namespace {
 // a fragment at 5 m/s moves half a millimetre, less than the list's skin and less than the tenth of
 // an edge that lies between a broken edge and contact.
 constexpr int kContactRefreshInterval = 4;
+
+// Of a parallel loop that does a few operations a point: some 20 microseconds.
+constexpr std::size_t kPointsPerRange = 8192;
+
+template <class Body>
+void for_points(std::span<const std::int32_t> points, const Body& body) {
+  parallel_for(points.size(), kPointsPerRange, [&](std::size_t from, std::size_t to) {
+    for (std::int32_t p : points.subspan(from, to - from)) body(p);
+  });
+}
+
+// As if the object had no springs.
+double largest_contact_step(LatticeObject object, double stiffness, double damping) {
+  object.spring_frequency = object.spring_damping = 0.0;
+  return limber::largest_step(object, stiffness, damping);
+}
 
 }  // namespace
 
@@ -26,9 +42,25 @@ double TimeOperator::largest_step(const Environment& environment) const {
   for (std::int32_t p : lattice_.dynamic_points) dynamic[lattice_.point_object[p]] = true;
   double step = kUnbreakable;
   for (std::size_t o = 0; o < lattice_.objects.size(); ++o) {
-    if (dynamic[o]) step = std::min(step, limber::largest_step(lattice_.objects[o], stiffness, damping));
+    if (!dynamic[o]) continue;
+    const LatticeObject& object = lattice_.objects[o];
+    step = std::min(step, is_implicit(o) ? largest_contact_step(object, stiffness, damping)
+                                         : limber::largest_step(object, stiffness, damping));
   }
   return step;
+}
+
+void TimeOperator::make_implicit(std::size_t object) {
+  if (!is_symplectic()) {
+    throw InputError({"time operator", "one object is to be implicit beside a Runge-Kutta method",
+                      "use symplectic Euler for the others"});
+  }
+  implicit_.set(object, true);
+  springs_.keep_in_double(object);
+}
+
+bool TimeOperator::is_implicit(std::size_t object) const {
+  return integrator_ == Integrator::kImplicitEuler || implicit_.contains(object);
 }
 
 void TimeOperator::require_sound_step(double dt, const Environment& environment,
@@ -38,14 +70,15 @@ void TimeOperator::require_sound_step(double dt, const Environment& environment,
     throw InputError({"time operator", "the step is " + std::to_string(dt) + " s",
                       "give a finite step above 0"});
   }
-  const bool runge_kutta = integrator_ != Integrator::kSymplecticEuler;
-  if (runge_kutta && coupling && !lattice_.carried_points.empty()) {
+  if (!is_symplectic() && coupling && !lattice_.carried_points.empty()) {
     throw InputError({"time operator", "points are carried by bodies in a Runge-Kutta step",
                       "use symplectic Euler where lattices touch bodies that carry points"});
   }
 }
 
 void TimeOperator::roles_changed() {
+  springs_.active_changed();
+  implicit_.topology_changed();
   pieces_stale_ = true;
   contacts_stale_ = true;
   faces_stale_ = true;
@@ -67,7 +100,7 @@ StepReport TimeOperator::advance(int substeps, double dt, const Environment& env
   for (int n = 0; n < substeps; ++n) {
     if (n % kContactRefreshInterval == 0) refresh_contacts();
     refresh_faces(environment);
-    if (integrator_ == Integrator::kSymplecticEuler) {
+    if (is_symplectic()) {
       step_symplectic(environment, dt, coupling);
     } else {
       const bool fourth_order = integrator_ == Integrator::kRungeKutta4;
@@ -75,17 +108,17 @@ StepReport TimeOperator::advance(int substeps, double dt, const Environment& env
                        coupling);
     }
     if (environment.ground) {
-      const double moved_share = integrator_ == Integrator::kSymplecticEuler ? 1.0 : 0.5;
+      const double moved_share = is_symplectic() ? 1.0 : 0.5;
       ground_.finish_step(lattice_, *environment.ground, dt, moved_share, report.ground);
     }
     if (coupling) coupling->advance(lattice_, dt);
     report.spring_updates += lattice_.active.size() - slack_;
-    if (!overstretched_.empty()) break_overstretched(report);
+    if (!springs_.overstretched_edges().empty()) break_overstretched(report);
     time_ = start + (n + 1) * dt;
     if (n % kDampingInterval == kDampingInterval - 1 || n == substeps - 1) {
-      sample_load();
+      if (watches_load_) sample_load();
       const int since = n % kDampingInterval + 1;
-      report.damped_J += damp_internally(lattice_, pieces(), since * dt);
+      report.damped_J += damp_internally(lattice_, pieces(), since * dt, leads(dt));
     }
   }
   require_finite();
@@ -95,10 +128,18 @@ StepReport TimeOperator::advance(int substeps, double dt, const Environment& env
 std::uint64_t TimeOperator::advance_springs_only(int substeps, double dt) {
   for (int n = 0; n < substeps; ++n) {
     apply_gravity(Vec3::Zero());
-    apply_springs();
+    springs_.add(dt);
     integrate(dt);
   }
   return lattice_.active.size() * static_cast<std::uint64_t>(substeps);
+}
+
+std::vector<double> TimeOperator::leads(double dt) const {
+  std::vector<double> leads(lattice_.objects.size(), 0.0);
+  for (std::size_t o = 0; o < leads.size(); ++o) {
+    if (is_symplectic() && !is_implicit(o)) leads[o] = 0.5 * dt;
+  }
+  return leads;
 }
 
 void TimeOperator::refresh_contacts() {
@@ -113,42 +154,16 @@ void TimeOperator::refresh_faces(const Environment& environment) {
 }
 
 void TimeOperator::apply_gravity(const Vec3& gravity) {
-  for (std::int32_t p : lattice_.dynamic_points) lattice_.force[p] = lattice_.mass[p] * gravity;
+  for_points(lattice_.dynamic_points,
+             [&](std::int32_t p) { lattice_.force[p] = lattice_.mass[p] * gravity; });
   for (std::int32_t p : lattice_.carried_points) lattice_.force[p].setZero();
 }
 
-void TimeOperator::apply_springs() {
-  overstretched_.clear();
-  apply_springs<false>(0, lattice_.first_breakable);
-  apply_springs<true>(lattice_.first_breakable, lattice_.active.size());
-}
-
-template <bool kMayBreak>
-void TimeOperator::apply_springs(std::size_t from, std::size_t to) {
-  const Spring* springs = lattice_.active.data();
-  const PointMotion* motion = lattice_.motion.data();
-  Vec3* force = lattice_.force.data();
-  for (std::size_t i = from; i < to; ++i) {
-    const Spring& s = springs[i];
-    const SpringStretch state =
-        spring_stretch(motion[s.b].position - motion[s.a].position,
-                       motion[s.b].velocity - motion[s.a].velocity, s.rest_length);
-    const Vec3 pull =
-        spring_tension(s.stiffness, s.damping, state.stretch, state.rate) * state.direction;
-    force[s.a] += pull;
-    force[s.b] -= pull;
-    if constexpr (kMayBreak) {
-      if (state.stretch > s.break_threshold || -state.stretch > s.crush_threshold) {
-        overstretched_.push_back(static_cast<std::int32_t>(i));
-      }
-    }
-  }
-}
-
-void TimeOperator::sum_forces(const Environment& environment, double time, double weight) {
+void TimeOperator::sum_forces(const Environment& environment, double time, double dt,
+                              double weight) {
   summed_at_ = time;
   apply_gravity(environment.gravity);
-  apply_springs();
+  springs_.add(dt);
   contacts_.add_forces(lattice_);
   if (environment.air) {
     add_face_forces(faces_, *environment.air, time, lattice_.motion, lattice_.force);
@@ -161,16 +176,25 @@ void TimeOperator::sum_forces(const Environment& environment, double time, doubl
 
 void TimeOperator::step_symplectic(const Environment& environment, double dt,
                                    SubstepCoupling* coupling) {
-  sum_forces(environment, time_, 1.0);
+  sum_forces(environment, time_, dt, 1.0);
   if (coupling) coupling->add_forces(lattice_, dt);
   integrate(dt);
 }
 
 void TimeOperator::integrate(double dt) {
-  for (std::int32_t p : lattice_.dynamic_points) {
+  if (integrator_ == Integrator::kImplicitEuler) make_all_implicit();
+  for_points(implicit_.explicit_points(lattice_), [&](std::int32_t p) {
     PointMotion& motion = lattice_.motion[p];
     motion.velocity += lattice_.force[p] * (dt * lattice_.inverse_mass[p]);
     motion.position += motion.velocity * dt;
+  });
+  implicit_.step(lattice_, dt);
+}
+
+// Objects may have been added.
+void TimeOperator::make_all_implicit() {
+  for (std::size_t o = 0; o < lattice_.objects.size(); ++o) {
+    if (!implicit_.contains(o)) implicit_.set(o, true);
   }
 }
 
@@ -183,7 +207,7 @@ void TimeOperator::step_runge_kutta(const ButcherTableau& tableau, const Environ
   for (std::size_t i = 0; i < count; ++i) start_[i] = lattice_.motion[lattice_.dynamic_points[i]];
   for (int stage = 0; stage < tableau.stages; ++stage) {
     move_to_stage(tableau, stage, dt);
-    sum_forces(environment, time_ + tableau.c[stage] * dt, tableau.b[stage]);
+    sum_forces(environment, time_ + tableau.c[stage] * dt, dt, tableau.b[stage]);
     for (std::size_t i = 0; i < count; ++i) {
       const std::int32_t p = lattice_.dynamic_points[i];
       slopes_[stage * count + i] = {lattice_.motion[p].velocity,
@@ -228,13 +252,14 @@ void TimeOperator::complete_stages(const ButcherTableau& tableau, double dt) {
 }
 
 void TimeOperator::break_overstretched(StepReport& report) {
-  std::vector<std::int32_t> edges;
-  for (std::int32_t i : overstretched_) edges.push_back(lattice_.active_edge[i]);
+  const std::span<const std::int32_t> edges = springs_.overstretched_edges();
   pieces();  // as they were
   const std::size_t first = report.breaks.size();
   for (std::int32_t e : edges) report.breaks.push_back(event_of(e));
   break_edges(lattice_.topology, lattice_.breaking, edges, broken_);
   slacken(lattice_, broken_.broken_edges);
+  springs_.remove(broken_.broken_edges);
+  implicit_.topology_changed();
   slack_ += broken_.broken_edges.size();
   report.broken_edges += broken_.broken_edges.size();
   if (boundary_) boundary_->update(lattice_.topology, broken_);

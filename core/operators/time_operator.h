@@ -6,10 +6,12 @@
 #include "core/dynamics/component_tracker.h"
 #include "core/dynamics/lattice.h"
 #include "core/dynamics/runge_kutta.h"
+#include "core/dynamics/spring_forces.h"
 #include "core/environment/environment.h"
 #include "core/environment/face_forces.h"
 #include "core/environment/ground_contact.h"
 #include "core/operators/boundary_tracker.h"
+#include "core/operators/implicit_bodies.h"
 
 namespace limber {
 
@@ -24,12 +26,12 @@ class SubstepCoupling {
 };
 
 struct BreakEvent {
-  double time = 0.0;         // s, of the operator's clock
-  std::int32_t edge = 0;     // the edge that bore too much
-  std::int32_t cell = -1;    // the first cell it took with it, if any
-  std::int32_t piece = 0;    // label in pieces() of its first end, after the substep
+  double time = 0.0;       // s, of the operator's clock
+  std::int32_t edge = 0;   // the edge that bore too much
+  std::int32_t cell = -1;  // the first cell it took with it, if any
+  std::int32_t piece = 0;  // label in pieces() of its first end, after the substep
   std::int32_t object = 0;
-  Vec3 where;                // m
+  Vec3 where;  // m
 };
 
 // A piece came off another: labels of pieces(), valid until the next roles_changed().
@@ -40,17 +42,18 @@ struct SplitEvent {
 
 struct StepReport {
   std::uint64_t spring_updates = 0;
-  double damped_J = 0.0;             // taken out by internal damping
+  double damped_J = 0.0;  // taken out by internal damping
   GroundReport ground;
-  std::vector<BreakEvent> breaks;    // in order of time
-  std::vector<SplitEvent> splits;    // in order of time
-  std::size_t broken_edges = 0;      // marked and consequent
+  std::vector<BreakEvent> breaks;  // in order of time
+  std::vector<SplitEvent> splits;  // in order of time
+  std::size_t broken_edges = 0;    // marked and consequent
 };
 
 enum class Integrator {
   kSymplecticEuler,  // v += f/m dt, x += v dt: the default
   kExplicitEuler,    // for comparison only
   kRungeKutta4,      // the accuracy reference
+  kImplicitEuler,    // stable at any stiffness and damping; see implicit_euler.h
 };
 
 // The time operator (paper, section 5.1): forces of springs and dampers, gravity, point-point
@@ -59,17 +62,31 @@ enum class Integrator {
 // `kDampingInterval` substeps the internal damping draws each connected piece towards its rigid
 // motion, and the load on the springs is sampled into lattice.peak_load.
 //
+// Objects may be integrated by implicit Euler while the others go by the operator's own method:
+// their springs then do not bound the step. Contacts, ground and air act on them as on the others.
+//
 // Pinned points stay where they are; lattice.force holds what they carry. Runge-Kutta methods
 // evaluate the coupling once a substep, everything else at every stage; they do not know carried
 // points.
 class TimeOperator {
  public:
-  explicit TimeOperator(Lattice& lattice, Integrator integrator = Integrator::kSymplecticEuler)
-      : lattice_(lattice), integrator_(integrator) {}
+  explicit TimeOperator(Lattice& lattice, Integrator integrator = Integrator::kSymplecticEuler,
+                        SpringPrecision precision = SpringPrecision::kDouble)
+      : lattice_(lattice),
+        integrator_(integrator),
+        springs_(lattice,
+                 integrator == Integrator::kImplicitEuler ? SpringPrecision::kDouble : precision) {}
+
+  // Integrates this object, an index of lattice.objects, by implicit Euler, and sums its springs in
+  // double precision: the method has springs of its own, and what two precisions differ by would
+  // push a stiff body from outside. Throws InputError beside
+  // a method other than the two Eulers' default, kSymplecticEuler.
+  void make_implicit(std::size_t object);
+  bool is_implicit(std::size_t object) const;
 
   // Largest step of symplectic Euler that is stable for every object with a dynamic point in this
-  // environment, s; infinity without springs or anything else that pushes. Drag is left out: it has
-  // to be faster than a substep to matter.
+  // environment, s; infinity without springs or anything else that pushes. Of implicit objects only
+  // contacts count. Drag is left out: it has to be faster than a substep to matter.
   double largest_step(const Environment& environment = kEmptySpace) const;
 
   // The clock that wind and events go by, s. Starts at 0, runs in advance().
@@ -92,6 +109,9 @@ class TimeOperator {
   // Has somebody's boundary follow every break from now on; null: nobody's.
   void keep_boundary(BoundaryTracker* tracker) { boundary_ = tracker; }
 
+  // Whether to sample the load on the springs; it costs a tenth of the fast springs.
+  void watch_load(bool wanted) { watches_load_ = wanted; }
+
   // To be told after rebuild_active(), and after rebuild_carried() alone.
   void roles_changed();
   void carried_changed() { carried_stale_ = true; }
@@ -99,13 +119,14 @@ class TimeOperator {
  private:
   void require_sound_step(double dt, const Environment& environment,
                           const SubstepCoupling* coupling) const;
+  std::vector<double> leads(double dt) const;  // s, of positions before velocities, each object
   void refresh_contacts();
   void refresh_faces(const Environment& environment);
+  bool is_symplectic() const {
+    return integrator_ == Integrator::kSymplecticEuler || integrator_ == Integrator::kImplicitEuler;
+  }
   void apply_gravity(const Vec3& gravity);
-  void apply_springs();
-  template <bool kMayBreak>
-  void apply_springs(std::size_t from, std::size_t to);
-  void sum_forces(const Environment& environment, double time, double weight);
+  void sum_forces(const Environment& environment, double time, double dt, double weight);
   void step_symplectic(const Environment& environment, double dt, SubstepCoupling* coupling);
   void step_runge_kutta(const ButcherTableau& tableau, const Environment& environment, double dt,
                         SubstepCoupling* coupling);
@@ -113,6 +134,7 @@ class TimeOperator {
   void move_to_stage(const ButcherTableau& tableau, int stage, double dt);
   void complete_stages(const ButcherTableau& tableau, double dt);
   void integrate(double dt);
+  void make_all_implicit();
   void break_overstretched(StepReport& report);
   BreakEvent event_of(std::int32_t edge) const;
   void sample_load();
@@ -127,13 +149,16 @@ class TimeOperator {
   ComponentTracker pieces_;
   BoundaryTracker* boundary_ = nullptr;
   BreakingResult broken_;  // of the last substep in which something broke
+  bool watches_load_ = true;
   bool pieces_stale_ = true;
   bool contacts_stale_ = true;
   bool carried_stale_ = false;
   bool faces_stale_ = true;
-  std::vector<std::int32_t> overstretched_;  // active springs, when forces were summed last
-  double summed_at_ = 0.0;                   // s, when that was
-  std::size_t slack_ = 0;                    // active springs that broke since the last rebuild
+  SpringForces springs_;
+  double summed_at_ = 0.0;  // s, when forces were summed last
+  std::size_t slack_ = 0;   // active springs that broke since the last rebuild
+
+  ImplicitBodies implicit_;
 
   // Runge-Kutta: shape (dynamic points), or (stages, dynamic points)
   std::vector<PointMotion> start_;

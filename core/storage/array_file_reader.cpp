@@ -3,16 +3,6 @@
 #include "core/model/errors.h"
 
 namespace limber {
-namespace {
-
-std::string text_of(const std::vector<std::uint64_t>& extents) {
-  if (extents.empty()) return "one number";
-  std::string text;
-  for (std::uint64_t extent : extents) text += (text.empty() ? "" : " x ") + std::to_string(extent);
-  return text + " numbers";
-}
-
-}  // namespace
 
 ArrayFileReader::ArrayFileReader(const OpenFile& file, std::size_t user_block)
     : file_(file), catalogue_(read_catalogue(file, user_block)) {}
@@ -45,7 +35,8 @@ std::uint64_t ArrayFileReader::admit(const std::string& path, NumberType type,
   if (array.type != type)
     refuse(path, std::string("holds ") + name_of(array.type) + ", not " + name_of(type));
   if (array.extents != shape.extents())
-    refuse(path, "has " + text_of(array.extents) + ", not " + text_of(shape.extents()));
+    refuse(path,
+           "has " + text_of_extents(array.extents) + ", not " + text_of_extents(shape.extents()));
   read_.insert(path);
   return array.offset;
 }
@@ -62,15 +53,15 @@ void ArrayFileReader::require_all_read() const {
 }
 
 std::string ArrayFileReader::text_attribute(const char* name) const {
-  const auto found = catalogue_.texts.find(name);
-  if (found == catalogue_.texts.end())
+  const auto found = catalogue_.attributes.texts.find(name);
+  if (found == catalogue_.attributes.texts.end())
     refuse("", std::string("has no attribute '") + name + "' that is a text of fixed length");
   return found->second;
 }
 
 std::int32_t ArrayFileReader::number_attribute(const char* name) const {
-  const auto found = catalogue_.numbers.find(name);
-  if (found == catalogue_.numbers.end())
+  const auto found = catalogue_.attributes.numbers.find(name);
+  if (found == catalogue_.attributes.numbers.end())
     refuse("", std::string("has no attribute '") + name + "' that is an int32");
   return found->second;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -68,12 +69,13 @@ class ArrayFileWriter {
     Stream(ArrayFileWriter& file, const ArraySpec<T>& spec, std::size_t numbers)
         : file_(file),
           shape_(shape_of(numbers, spec.width)),
-          dataset_(file.create(spec.path, spec.unit, number_type<T>(), shape_)) {
-      buffer_.reserve(kBufferNumbers / shape_.numbers_a_row() * shape_.numbers_a_row());
+          dataset_(file.create(spec.path, spec.unit, number_type<T>(), shape_)),
+          most_(kBufferNumbers / shape_.numbers_a_row() * shape_.numbers_a_row()) {
+      buffer_.reserve(std::min(most_, numbers));
     }
     void push(T number) {
       buffer_.push_back(number);
-      if (buffer_.size() == buffer_.capacity()) flush();
+      if (buffer_.size() == most_) flush();
     }
     void flush() {
       if (buffer_.empty()) return;
@@ -87,6 +89,7 @@ class ArrayFileWriter {
     ArrayFileWriter& file_;
     ArrayShape shape_;
     Hdf5Handle dataset_;
+    std::size_t most_;  // numbers in the buffer: whole rows
     std::vector<T> buffer_;
     std::size_t written_ = 0;  // rows
   };

@@ -35,6 +35,13 @@ std::vector<std::uint64_t> ArrayShape::extents() const {
   return {rows, static_cast<std::uint64_t>(width)};
 }
 
+std::string text_of_extents(const std::vector<std::uint64_t>& extents) {
+  if (extents.empty()) return "one number";
+  std::string text;
+  for (std::uint64_t extent : extents) text += (text.empty() ? "" : " x ") + std::to_string(extent);
+  return text + " numbers";
+}
+
 ArrayShape shape_of(std::size_t numbers, int width) {
   ArrayShape shape{0, width};
   shape.rows = numbers / shape.numbers_a_row();

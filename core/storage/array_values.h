@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -38,6 +39,9 @@ struct ArrayShape {
   std::size_t numbers_a_row() const { return width == kScalar ? 1 : std::size_t(width); }
   std::vector<std::uint64_t> extents() const;
 };
+
+// For messages: "3 x 2 numbers".
+std::string text_of_extents(const std::vector<std::uint64_t>& extents);
 
 // The shape of an array with so many numbers in all.
 ArrayShape shape_of(std::size_t numbers, int width);

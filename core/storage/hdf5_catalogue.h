@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/storage/array_values.h"
+#include "core/storage/hdf5_messages.h"
 #include "core/storage/open_file.h"
 
 namespace limber {
@@ -21,8 +22,7 @@ struct StoredArray {
 // What an HDF5 file holds: arrays by path, groups one deep, and the attributes of the root.
 struct Hdf5Catalogue {
   std::map<std::string, StoredArray> arrays;
-  std::map<std::string, std::string> texts;
-  std::map<std::string, std::int32_t> numbers;
+  Hdf5Attributes attributes;
 };
 
 // Reads the structure of an HDF5 file (format specification 3.0: superblock version 2, object

@@ -16,6 +16,7 @@
 #include "demos/cli/model_command.h"
 #include "demos/cli/render_command.h"
 #include "demos/cli/run_command.h"
+#include "demos/cli/stability_command.h"
 
 namespace limber::demos {
 namespace {
@@ -86,6 +87,7 @@ Action parse(int argc, const char* const* argv) {
   add_render_command(app, chosen);
   add_model_command(app, chosen);
   add_info_command(app, chosen);
+  add_stability_command(app, chosen);
   refuse_unknown_command(app, argc, argv);
   try {
     app.parse(argc, argv);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <ostream>
 
+#include "core/threads/parallel_for.h"
 #include "demos/cli/comparison.h"
 #include "demos/cli/numbers.h"
 #include "demos/cli/options.h"
@@ -52,7 +53,7 @@ ComparedRuns run_all(const CompareOptions& options, const Scene& scene, Terminal
     runs.switching.push_back(one(Policy::kSwitching, k));
   }
   bar.show("springs alone", 0.0);
-  runs.spring_rate = spring_rate(scene, kSpringRateWall_s);
+  runs.spring_rate = spring_rate(scene, runs.flexible.front().spring_precision, kSpringRateWall_s);
   return runs;
 }
 
@@ -60,6 +61,8 @@ void compare_scene(const CompareOptions& options, Terminal& terminal) {
   const Scene scene = build_scene(options.scene, options.changes);
   require_other_file(options.scene, options.json);
   require_json_target(options);
+  say_notes(scene.notes, terminal);
+  set_threads(options.threads);
   const ComparedRuns runs = run_all(options, scene, terminal);
   const Comparison comparison = compare(runs);
   write_json(options, comparison_json(runs, comparison), terminal);
@@ -87,6 +90,8 @@ void add_compare_command(CLI::App& app, Action& chosen) {
   add_seconds(*command, *options);
   add_tick(*command, *options);
   add_noise(*command, *options);
+  add_springs(*command, *options);
+  add_threads(*command, *options);
   add_json(*command, *options);
   add_set(*command, *options);
   command->footer(kFooter);

@@ -26,11 +26,11 @@ void refuse_invalid(const PhysicalModel& model, const std::string& file, Termina
   const std::vector<Diagnostic> found = validate(model, kMost);
   if (found.empty()) return;
   for (const Diagnostic& d : found) terminal.err << "limber: " << printable(d.text()) << '\n';
-  throw InputError({file,
-                    fmt::format("holds a model with {}{} {} (above)",
-                                found.size() == kMost ? "at least " : "", grouped(found.size()),
-                                found.size() == 1 ? "error" : "errors"),
-                    "mend what wrote it; docs/invariants.md lists what a model has to fulfil"});
+  throw InputError(
+      {file,
+       fmt::format("holds a model with {}{} {} (above)", found.size() == kMost ? "at least " : "",
+                   grouped(found.size()), found.size() == 1 ? "error" : "errors"),
+       "mend what wrote it; docs/invariants.md lists what a model has to fulfil"});
 }
 
 void inspect_file(const InfoOptions& options, Terminal& terminal) {

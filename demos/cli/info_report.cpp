@@ -15,11 +15,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostSubobjects = 24;  // lines of one report
-constexpr std::size_t kMostName = 60;        // characters of a name in it
+constexpr std::size_t kMostName = 60;        // bytes of a name in it
 
+// Of the further bytes of a character in UTF-8.
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
+// Cut between two characters.
 std::string shortened(const std::string& name) {
   const std::string text = printable(name);
-  return text.size() <= kMostName ? text : text.substr(0, kMostName - 3) + "...";
+  if (text.size() <= kMostName) return text;
+  std::size_t end = kMostName - 3;
+  while (end > 0 && continues_character(text[end])) --end;
+  return text.substr(0, end) + "...";
 }
 
 std::string vector_text(const Vec3& v) {

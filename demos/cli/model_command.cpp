@@ -14,10 +14,13 @@
 #include "core/modeller/material_table.h"
 #include "core/modeller/mesh_lattice.h"
 #include "core/modeller/read_mesh.h"
+#include "core/modeller/softness.h"
 #include "core/storage/atomic_file.h"
 #include "core/storage/model_file.h"
+#include "demos/cli/model_report.h"
 #include "demos/cli/numbers.h"
 #include "demos/cli/options.h"
+#include "demos/cli/progress_bar.h"
 #include "demos/cli/text_table.h"
 
 namespace limber::demos {
@@ -25,7 +28,7 @@ namespace {
 
 constexpr double kDefaultCells = 16.0;  // along the mesh's longest side
 
-struct ModelOptions {
+struct ModelOptions : OutputOptions {
   std::string mesh;
   std::string output;
   std::string material = "porcelain";
@@ -65,78 +68,104 @@ double spacing_of(const ModelOptions& options, const TriangleMesh& mesh) {
                     "mend its positions: they have to be finite and not all in one place"});
 }
 
-std::string size_line(const TriangleMesh& mesh, double spacing) {
+Vec3 size_of(const TriangleMesh& mesh) {
   const auto [low, high] = bounding_box(mesh);
-  const Vec3 size = high - low;
-  return fmt::format("{} x {} x {} m, cells of {} m\n", significant(size.x()), significant(size.y()),
-                     significant(size.z()), significant(spacing));
+  return high - low;
 }
 
-// 0 for what rounds to it: no "-0.00 %".
-std::string percent(double share) {
-  const double hundredths = std::round(1e4 * share);
-  return fmt::format("{:.2f} %", hundredths == 0.0 ? 0.0 : 0.01 * hundredths);
+// Names the user's file, not the object that was made of it.
+std::vector<Diagnostic> from_file(std::vector<Diagnostic> notes, const std::string& name,
+                                  const std::string& file) {
+  for (Diagnostic& note : notes)
+    if (note.where.starts_with(name)) note.where = file + note.where.substr(name.size());
+  return notes;
 }
 
-std::string mesh_table(const MeshLatticeReport& report) {
-  TextTable table;
-  table.add_row({"", "mesh", "lattice", "error"});
-  table.add_row({"volume, m^3", significant(report.mesh.volume), significant(report.cells.volume),
-                 percent(report.volume_error)});
-  table.add_row({"centre", "", "", fmt::format("{} cells", significant(report.centre_error))});
-  table.add_row({"inertia", "", "", percent(report.inertia_error)});
-  return table.text();
+void append(std::vector<Diagnostic>& all, const std::vector<Diagnostic>& more) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
-// Counts have no exponent.
-std::string whole(double number) { return fmt::format("{:.0f}", std::ceil(number)); }
-
-std::string counts(const PhysicalModel& model, const MaterialReport& report) {
-  return fmt::format(
-      "{} points, {} edges, {} cells, {} kg\n"
-      "{} substeps in a tick of 1/60 s with softening S {}, {} with S 1\n",
-      grouped(model.points.size()), grouped(model.edges.size()), grouped(model.cells.size()),
-      significant(total_mass(model)), whole(report.substeps_per_tick),
-      significant(report.softening), whole(report.substeps_per_tick_unsoftened));
+// Of a fall of a metre, as `limber run FILE` has it.
+void note_landing(const PhysicalModel& model, MadeModel& made) {
+  constexpr double kGravity = 9.81, kHeight = 1.0;  // m/s^2, m
+  const auto note = softness_note(made.mesh, model, std::sqrt(2.0 * kGravity * kHeight), kGravity);
+  if (note) made.notes.push_back(*note);
 }
 
-void say_notes(const std::vector<Diagnostic>& notes, Terminal& terminal) {
-  for (const Diagnostic& note : notes) terminal.out << "note: " << note.text() << '\n';
+// Writes the model where that was asked for.
+MadeModel make(const ModelOptions& options, TriangleMesh mesh, const Material& material,
+               ProgressBar& bar) {
+  const std::string name = mesh.name;
+  mesh.name = options.mesh;  // the messages are about the file
+  MadeModel made;
+  made.mesh = options.mesh;
+  made.material = options.material;
+  made.output = options.output;
+  made.size = size_of(mesh);
+  made.spacing = spacing_of(options, mesh);
+  bar.show("cells", 0.1);
+  MeshLattice lattice = mesh_lattice(mesh, {.spacing = made.spacing, .name = name, .edges = {}});
+  bar.show("springs", 0.5);
+  PhysicalModel model = with_material(std::move(lattice.geometry), name, material);
+  model.skins.push_back(std::move(lattice.skin));
+  made.fit = lattice.report;
+  made.count = {model.points.size(), model.edges.size(), model.faces.size(), model.cells.size()};
+  made.mass_kg = total_mass(model);
+  bar.show("judging", 0.7);
+  made.cost = material_report(model);
+  append(made.notes, lattice.notes);
+  append(made.notes,
+         from_file(modelling_notes(model, made.cost, {&material, 1}), name, options.mesh));
+  note_landing(model, made);
+  bar.show("writing", 0.9);
+  if (!options.output.empty()) write_model(model, options.output);
+  return made;
 }
 
-void make_model(const ModelOptions& options, Terminal& terminal) {
-  const Material material = material_of(options);
+void require_targets(const ModelOptions& options) {
   if (!options.output.empty()) {
     require_other_file(options.mesh, options.output);
     require_writable(options.output);
   }
-  const TriangleMesh mesh = read_mesh(options.mesh, options.scale);
-  const double spacing = spacing_of(options, mesh);
-  terminal.out << size_line(mesh, spacing);
-  MeshLattice made = mesh_lattice(mesh, {.spacing = spacing, .name = mesh.name, .edges = {}});
-  PhysicalModel model = with_material(std::move(made.geometry), mesh.name, material);
-  model.skins.push_back(std::move(made.skin));
-  const MaterialReport report = material_report(model);
-
-  terminal.out << mesh_table(made.report) << counts(model, report);
-  say_notes(made.notes, terminal);
-  say_notes(modelling_notes(model, report, {&material, 1}), terminal);
-  if (options.output.empty()) return;
-  write_model(model, options.output);
-  terminal.out << fmt::format("{}: written; `limber run {}` drops it\n", options.output,
-                              options.output);
+  require_other_file(options.mesh, options.json);
+  require_json_target(options);
+  if (options.json.empty() || options.json != options.output) return;
+  throw InputError({options.json, "is to hold both the model and the JSON", "name two files"});
 }
 
-void add_number(CLI::App& command, const std::string& name, double& value, double least,
+void make_model(const ModelOptions& options, Terminal& terminal) {
+  const Material material = material_of(options);
+  require_targets(options);
+  TriangleMesh mesh = read_mesh(options.mesh, options.scale);
+  const double volume = std::abs(solid_moments(mesh).volume);
+  std::vector<Diagnostic> early = size_notes(options.mesh, size_of(mesh));
+  append(early, count_notes(options.mesh, volume, spacing_of(options, mesh)));
+  say_notes(early, terminal);
+  MadeModel made;
+  {
+    ProgressBar bar(terminal.err);
+    made = make(options, std::move(mesh), material, bar);
+  }
+  made.early = std::move(early);
+  write_json(options, model_json(made), terminal);
+  if (tables_wanted(options)) terminal.out << model_report(made);
+}
+
+struct Span {
+  double least, most;
+  std::string unit;
+};
+
+void add_number(CLI::App& command, const std::string& name, double& value, Span range,
                 const std::string& unit, const std::string& help) {
   command
       .add_option_function<std::string>(
           name,
-          [name, least, &value](const std::string& text) {
+          [=, &value](const std::string& text) {
             value = parse_number(text, name);
-            if (value >= least) return;
+            if (value >= range.least && value <= range.most) return;
             throw InputError({name, fmt::format("{} is out of range", text),
-                              fmt::format("give {} or more", least)});
+                              fmt::format("give {} to {}{}", range.least, range.most, range.unit)});
           },
           help)
       ->type_name(unit);
@@ -149,16 +178,17 @@ void add_options(CLI::App& command, ModelOptions& options) {
       ->type_name("NAME")
       ->capture_default_str();
   command.add_flag("--materials", options.list_materials, "list the materials and do nothing else");
-  add_number(command, "--spacing", options.spacing, 1e-6, "M",
+  add_number(command, "--spacing", options.spacing, {1e-6, 1e3, " m"}, "M",
              "side of a cell, m; a 16th of the mesh's longest side without it");
-  add_number(command, "--scale", options.scale, 1e-9, "M",
+  add_number(command, "--scale", options.scale, {1e-9, 1e6, " m"}, "M",
              "m in a unit of the file, 0.001 for millimetres; 1 without it");
-  add_number(command, "--softening", options.softening, 1.0, "S",
+  add_number(command, "--softening", options.softening, {1.0, 1e8, ""}, "S",
              "modulus / S, strain at break x sqrt S; 1, the real material, without it");
-  add_number(command, "--damping-ratio", options.damping_ratio, 0.0, "Z",
+  add_number(command, "--damping-ratio", options.damping_ratio, {0.0, 10.0, ""}, "Z",
              "at the highest frequency; the material's without it");
-  add_number(command, "--internal-damping", options.internal_damping, 0.0, "1/S",
+  add_number(command, "--internal-damping", options.internal_damping, {0.0, 1e6, " 1/s"}, "1/S",
              "draws pieces to their rigid motion, 1/s; 0 without it");
+  add_json(command, options);
 }
 
 }  // namespace
@@ -174,8 +204,7 @@ void add_model_command(CLI::App& app, Action& chosen) {
       return;
     }
     if (options->mesh.empty()) {
-      throw InputError(
-          {"command line", "MESH is missing", "name an OBJ, PLY, STL or glTF file"});
+      throw InputError({"command line", "MESH is missing", "name an OBJ, PLY, STL or glTF file"});
     }
     chosen = [options](Terminal& terminal) { make_model(*options, terminal); };
   });

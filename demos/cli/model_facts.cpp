@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/dynamics/lattice.h"
+#include "core/model/bounds.h"
 
 namespace limber::demos {
 namespace {
@@ -36,11 +37,9 @@ void take_points(ModelFacts& facts, const PhysicalModel& model) {
   facts.mass_kg = total_mass(model);
   if (model.points.empty()) return;
   facts.centre_of_mass = centre_of_mass(model);
-  facts.lowest = facts.highest = model.geometry.points[PointId(0)];
-  for (const Vec3& x : model.geometry.points) {
-    facts.lowest = facts.lowest.cwiseMin(x);
-    facts.highest = facts.highest.cwiseMax(x);
-  }
+  const Box3 box = bounds_of(model.geometry.points);
+  facts.lowest = box.min();
+  facts.highest = box.max();
 }
 
 void take_edge(ModelFacts& facts, const EdgeAttributes& edge) {

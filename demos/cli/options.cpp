@@ -14,8 +14,9 @@
 namespace limber::demos {
 namespace {
 
-constexpr double kLeastTick = 1e-5;   // s; below, a second takes more than 100,000 rigid steps
-constexpr double kMostTick = 0.1;     // s; above, Bullet's contacts tunnel and jump
+constexpr double kLeastTick = 1e-5;  // s; below, a second takes more than 100,000 rigid steps
+constexpr double kMostTick = 0.1;    // s; above, Bullet's contacts tunnel and jump
+constexpr int kMostThreads = 1024;
 constexpr double kMostSeconds = 1e5;  // s; above, the samples of one run no longer fit in memory
 
 double parse_seconds(const std::string& text) {
@@ -42,10 +43,32 @@ Policy parse_policy(const std::string& text) {
                     "give switching, flexible or rigid"});
 }
 
+RunOptions::Integration parse_integrator(const std::string& text) {
+  static const std::map<std::string, RunOptions::Integration> ways = {
+      {"explicit", RunOptions::Integration::kExplicit},
+      {"implicit", RunOptions::Integration::kImplicit},
+      {"automatic", RunOptions::Integration::kAutomatic}};
+  const auto found = ways.find(text);
+  if (found != ways.end()) return found->second;
+  throw InputError({"--integrator", fmt::format("there is no integrator '{}'", text),
+                    "give explicit, implicit or automatic"});
+}
+
+SpringPrecision parse_springs(const std::string& text) {
+  static const std::map<std::string, SpringPrecision> precisions = {
+      {"single", SpringPrecision::kSingle}, {"double", SpringPrecision::kDouble}};
+  const auto found = precisions.find(text);
+  if (found != precisions.end()) return found->second;
+  throw InputError(
+      {"--springs", fmt::format("there is no precision '{}'", text), "give single or double"});
+}
+
 }  // namespace
 
 void add_scene(CLI::App& command, SceneOptions& options, bool required) {
-  command.add_option("SCENE", options.scene, "name of a scene (`limber run` alone lists them) or a model file")
+  command
+      .add_option("SCENE", options.scene,
+                  "name of a scene (`limber run` alone lists them) or a model file")
       ->required(required)
       ->type_name("");
 }
@@ -91,6 +114,35 @@ void add_policy(CLI::App& command, SceneOptions& options) {
       ->type_name("POLICY");
 }
 
+void add_integrator(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--integrator",
+          [&](const std::string& s) { options.run.integration = parse_integrator(s); },
+          "explicit (default): vibrates and breaks as it should; implicit: any stiffness, no "
+          "vibration; automatic: implicit for what would need too many substeps")
+      ->type_name("METHOD");
+}
+
+void add_springs(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--springs", [&](const std::string& s) { options.run.springs = parse_springs(s); },
+          "precision of the springs' forces: single (fast) or double; Bullet's own without it")
+      ->type_name("PRECISION");
+}
+
+void add_threads(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--threads",
+          [&](const std::string& s) {
+            options.threads = parse_whole(s, 1, kMostThreads, "--threads");
+          },
+          "threads for large lattices, 1 without it; results do not depend on it")
+      ->type_name("N");
+}
+
 void add_json(CLI::App& command, OutputOptions& options) {
   command
       .add_option("--json", options.json,
@@ -115,6 +167,10 @@ void require_other_file(const std::string& input, const std::string& output) {
   std::error_code none;
   if (!std::filesystem::equivalent(input, output, none)) return;
   throw InputError({output, "is what the command reads", "write to another file"});
+}
+
+void say_notes(const std::vector<Diagnostic>& notes, Terminal& terminal) {
+  for (const Diagnostic& note : notes) terminal.err << "note: " << note.text() << '\n';
 }
 
 bool tables_wanted(const OutputOptions& options) { return options.json != "-"; }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "core/model/errors.h"
 #include "demos/cli/command.h"
 #include "demos/scenes/scene.h"
 #include "demos/scenes/simulation.h"
@@ -18,6 +20,7 @@ struct SceneOptions : OutputOptions {
   std::string scene;
   ParameterValues changes;  // of --set
   RunOptions run;
+  int threads = 1;
 };
 
 // Each adds one option (or the argument SCENE) to a command. The values are checked while the line
@@ -27,6 +30,9 @@ void add_set(CLI::App& command, SceneOptions& options);
 void add_seconds(CLI::App& command, SceneOptions& options);
 void add_tick(CLI::App& command, SceneOptions& options);
 void add_policy(CLI::App& command, SceneOptions& options);
+void add_integrator(CLI::App& command, SceneOptions& options);
+void add_springs(CLI::App& command, SceneOptions& options);
+void add_threads(CLI::App& command, SceneOptions& options);
 void add_json(CLI::App& command, OutputOptions& options);
 
 // Refuses an output that is the input: it would be gone.
@@ -37,6 +43,9 @@ void require_json_target(const OutputOptions& options);
 
 // Delivers `text` to where --json says; does nothing without --json.
 void write_json(const OutputOptions& options, const std::string& text, Terminal& terminal);
+
+// Says what a user should know, one line a note, on standard error: before long work begins.
+void say_notes(const std::vector<Diagnostic>& notes, Terminal& terminal);
 
 // Standard output belongs to the JSON alone once `--json -` asked for it.
 bool tables_wanted(const OutputOptions& options);

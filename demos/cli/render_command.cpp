@@ -93,6 +93,7 @@ void render_scene(const RenderOptions& options, Terminal& terminal) {
   const Scene scene = build_scene(options.scene, options.changes);
   require_povray();
   require_writable(options.image);
+  say_notes(scene.notes, terminal);
   const Snapshot snapshot = draw(options, scene, terminal);
   terminal.out << fmt::format("{}: {} at {:.4f} s, {} x {} pixels, softening S {:.4g}\n{}",
                               options.image, scene.name, snapshot.time_s, options.size.width,
@@ -106,8 +107,8 @@ void render(const RenderOptions& options, Terminal& terminal) {
   }
   if (options.time_s >= 0.0) return render_scene(options, terminal);
   if (!options.changes.empty()) {
-    throw InputError({"command line", "--set is for a scene, at a --time",
-                      "add --time, or leave out --set"});
+    throw InputError(
+        {"command line", "--set is for a scene, at a --time", "add --time, or leave out --set"});
   }
   if (std::filesystem::is_regular_file(options.scene)) return render_model(options, terminal);
   throw InputError({"command line", "--time is missing",
@@ -130,7 +131,8 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
   command
       .add_option_function<std::string>(
           "--time", [&](const std::string& text) { options.time_s = parse_time(text); },
-          "the instant to show, simulated s; the nearest tick is taken. A model file may go without: "
+          "the instant to show, simulated s; the nearest tick is taken. A model file may go "
+          "without: "
           "then it is shown as it is")
       ->type_name("S");
   command.add_flag("--lattice", options.lattice,

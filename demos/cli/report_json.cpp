@@ -41,7 +41,8 @@ Json body_json(const BodySummary& body) {
           {"com_m", vector_json(body.centre_of_mass)},
           {"velocity_m_s", vector_json(body.velocity)},
           {"broken_edges", body.broken_edges},
-          {"fragments", body.fragments}};
+          {"fragments", body.fragments},
+          {"softening", body.softening}};
 }
 
 Json switch_json(const SwitchEvent& event) {
@@ -133,6 +134,16 @@ Json pieces_json(const RunResult& flexible, const RunResult& switching) {
           {"debris_rel", or_null(debris_rel(flexible, switching))}};
 }
 
+const char* name_of(SpringPrecision precision) {
+  return precision == SpringPrecision::kSingle ? "single" : "double";
+}
+
+// null: double precision uses none.
+Json vector_instructions_of(const RunResult& run) {
+  if (run.spring_precision == SpringPrecision::kDouble) return nullptr;
+  return vector_instructions();
+}
+
 }  // namespace
 
 std::string hex_hash(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
@@ -158,11 +169,15 @@ std::string run_json(const RunResult& run, Policy policy) {
                {"state_hash", hex_hash(run.state_hash)},
                {"points", run.points},
                {"springs", run.springs},
+               {"spring_precision", name_of(run.spring_precision)},
+               {"vector_instructions", vector_instructions_of(run)},
                {"softening", run.softening}};
   json.update(what_happened(run));
   json.update(switching_counts(run));
   json.update(plausibility(run));
   json["bodies"] = list_json(run.summaries, body_json);
+  json["piece_masses_kg"] = run.piece_masses;
+  json["notes"] = run.notes;
   json["ledger"] = ledger_json(run);
   json["switches"] = list_json(run.switches, switch_json);
   return text_of(json);
@@ -182,6 +197,9 @@ std::string comparison_json(const ComparedRuns& runs, const Comparison& comparis
   json["noise"] = noise_json(comparison.noise, runs.flexible.size());
   json["ledger"] = ledger_json(switching);
   json["softening"] = flexible.softening;
+  json["spring_precision"] = name_of(flexible.spring_precision);
+  json["vector_instructions"] = vector_instructions_of(flexible);
+  json["notes"] = flexible.notes;
   json["baseline_efficiency"] = or_null(comparison.baseline_efficiency);
   return text_of(json);
 }

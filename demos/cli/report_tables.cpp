@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "demos/cli/body_groups.h"
 #include "demos/cli/report_json.h"
 #include "demos/cli/text_table.h"
 
@@ -11,6 +12,7 @@ namespace limber::demos {
 namespace {
 
 constexpr std::size_t kMostSwitches = 24;  // lines of one report
+constexpr std::size_t kMostPieces = 8;     // whose masses are shown
 
 std::string or_dash(const std::optional<double>& value) {
   return value ? significant(*value) : "-";
@@ -29,6 +31,11 @@ std::string headline(const RunResult& run) {
                      significant(run.seconds), significant(run.tick),
                      counted(run.bodies, "body", "bodies"), counted(run.points, "point", "points"),
                      counted(run.springs, "spring", "springs"));
+}
+
+std::string spring_text(const RunResult& run) {
+  if (run.spring_precision == SpringPrecision::kDouble) return "double precision";
+  return fmt::format("single precision, {}", vector_instructions());
 }
 
 std::string softening_text(const RunResult& run) {
@@ -77,10 +84,30 @@ std::string bodies_section(const RunResult& run) {
   TextTable table;
   table.add_row(
       {"body", "now", "mass kg", "centre m", "velocity m/s", "broken edges", "fragments"});
-  for (const BodySummary& b : run.summaries) {
+  for (const BodySummary& b : grouped_bodies(run.summaries)) {
     table.add_row({b.name, b.representation, significant(b.mass_kg), vector_text(b.centre_of_mass),
                    vector_text(b.velocity), grouped(b.broken_edges), grouped(b.fragments)});
   }
+  return section(table);
+}
+
+std::string largest_pieces(const RunResult& run) {
+  std::string text;
+  const std::size_t shown = std::min(run.piece_masses.size(), kMostPieces);
+  for (std::size_t i = 0; i < shown; ++i)
+    text += (i == 0 ? "" : ", ") + significant(run.piece_masses[i]);
+  return shown < run.piece_masses.size() ? text + ", ..." : text;
+}
+
+std::string broken_section(const RunResult& run) {
+  if (run.broken_edges == 0) return "";
+  TextTable table;
+  table.add_row({"what broke", ""});
+  table.add_row({"edges", grouped(run.broken_edges)});
+  table.add_row({"pieces", grouped(run.piece_masses.size())});
+  table.add_row({"pieces over 0.5 % of the mass", grouped(count_pieces(run))});
+  table.add_row({"the largest, kg", largest_pieces(run)});
+  table.add_row({"debris, kg", significant(run.debris_mass)});
   return section(table);
 }
 
@@ -94,6 +121,7 @@ std::string run_facts(const RunResult& run, Policy policy) {
   table.add_row({"flexible share", significant(run.flexible_share)});
   table.add_row({"first break, s", or_dash(run.first_break_s)});
   table.add_row({"softening S", softening_text(run)});
+  table.add_row({"springs", spring_text(run)});
   table.add_row({"state hash", hex_hash(run.state_hash)});
   return table.text();
 }
@@ -130,6 +158,7 @@ std::string conditions_section(const ComparedRuns& runs, const Comparison& c) {
   text += fmt::format("    softening S          {}\n", softening_text(runs.flexible.front()));
   text += fmt::format("    noise floor          {}\n", noise_text(runs, c));
   text += fmt::format("    baseline efficiency  {}\n", efficiency_text(c));
+  text += fmt::format("    springs              {}\n", spring_text(runs.flexible.front()));
   if (c.median_speedup) {
     text += fmt::format("    median wall times    speed-up {} over {} pairs of runs\n",
                         significant(*c.median_speedup), runs.flexible.size());
@@ -169,7 +198,8 @@ std::string outcome_section(const RunResult& flexible, const RunResult& switchin
       [](const RunResult& r) { return significant(r.fastest_chip_m_s); });
   row("free fall to the floor, m/s",
       [](const RunResult& r) { return significant(r.impact_speed_m_s); });
-  row("highest energy / start", [](const RunResult& r) { return significant(r.highest_energy_rel); });
+  row("highest energy / start",
+      [](const RunResult& r) { return significant(r.highest_energy_rel); });
   row("highest rise, m", [](const RunResult& r) { return significant(r.highest_rise_m); });
   return section(table);
 }
@@ -203,14 +233,16 @@ std::string scene_list(const std::vector<SceneEntry>& scenes) {
     std::size_t width = 0;
     for (const Parameter& p : scene.parameters) width = std::max(width, p.name.size());
     for (const Parameter& p : scene.parameters) {
-      text += fmt::format("    {:<{}} = {} {}  {}\n", p.name, width, p.value, p.unit, p.meaning);
+      text += fmt::format("    {:<{}} = {} {}  {} ({} to {})\n", p.name, width, p.value, p.unit,
+                          p.meaning, p.least, p.most);
     }
   }
   return text;
 }
 
 std::string run_report(const RunResult& run, Policy policy) {
-  return headline(run) + run_facts(run, policy) + bodies_section(run) + switches_section(run);
+  return headline(run) + run_facts(run, policy) + bodies_section(run) + broken_section(run) +
+         switches_section(run);
 }
 
 std::string comparison_report(const ComparedRuns& runs, const Comparison& comparison) {

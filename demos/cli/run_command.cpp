@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "core/model/errors.h"
+#include "core/threads/parallel_for.h"
 #include "demos/cli/options.h"
 #include "demos/cli/progress_bar.h"
 #include "demos/cli/report_json.h"
@@ -23,7 +24,12 @@ void run_scene(const SceneOptions& options, Terminal& terminal) {
   const Scene scene = build_scene(options.scene, options.changes);
   require_other_file(options.scene, options.json);
   require_json_target(options);
+  say_notes(scene.notes, terminal);
+  set_threads(options.threads);
   const RunResult result = run_with_progress(options, scene, terminal);
+  for (std::size_t n = scene.notes.size(); n < result.notes.size(); ++n) {
+    terminal.err << "note: " << result.notes[n] << '\n';
+  }
   write_json(options, run_json(result, options.run.policy), terminal);
   if (tables_wanted(options)) terminal.out << run_report(result, options.run.policy);
 }
@@ -49,6 +55,9 @@ void add_run_command(CLI::App& app, Action& chosen) {
   add_seconds(*command, *options);
   add_policy(*command, *options);
   add_tick(*command, *options);
+  add_integrator(*command, *options);
+  add_springs(*command, *options);
+  add_threads(*command, *options);
   add_json(*command, *options);
   add_set(*command, *options);
   command->callback([command, options, &chosen] {

@@ -6,8 +6,8 @@
 namespace limber::demos {
 
 enum class ModelLook {
-  kSkin,     // what is seen of it: its skins, or its faces where it has none
-  kLattice,  // the faces of its cells with their sides drawn on them
+  kSkin,     // what is seen of it: its skins, or its faces where it has none, its ropes and grains
+  kLattice,  // the faces of its cells with their sides drawn on them, its ropes and grains
 };
 
 // One model alone, as it is, for pov_scene(): it stands on the floor in the middle of the picture,

@@ -68,9 +68,11 @@ Scene build(const ParameterValues& values) {
 SceneEntry jelly_and_brick() {
   return {"jelly_and_brick",
           "a soft cube and a stiff brick dropped side by side, the cube set wobbling",
-          {{"height", 0.5, "m", "of the lowest points above the floor"},
-           {"wobble", 3.0, "1/s", "rate at which the jelly is being stretched at the start"},
-           {"softening", 1000.0, "", "S of the brick: modulus / S, strain at break x sqrt S"}},
+          {{"height", 0.5, "m", "of the lowest points above the floor", 0.0, 100.0},
+           {"wobble", 3.0, "1/s", "rate at which the jelly is being stretched at the start", -10.0,
+            10.0},
+           {"softening", 1000.0, "", "S of the brick: modulus / S, strain at break x sqrt S", 1.0,
+            1e6}},
           build};
 }
 

@@ -1,9 +1,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <random>
 
-#include "core/model/errors.h"
+#include "core/model/random.h"
+#include "core/modeller/bending_springs.h"
 #include "core/modeller/material_table.h"
 #include "core/modeller/sheet.h"
 #include "core/modeller/thin_material.h"
@@ -37,29 +37,18 @@ PhysicalModel leaf(const std::string& name) {
   properties.faces.normal_drag = 1.2;
   properties.faces.tangential_drag = 0.03;
   const SheetGrid grid{.cells_u = 4, .cells_v = 2, .cells = SheetCells::kTriangles};
-  return with_sheet_material(sheet(blade, grid, name), name, material_named("leaf").material,
-                             properties);
+  const Material material = material_named("leaf").material;
+  PhysicalModel model = with_sheet_material(sheet(blade, grid, name), name, material, properties);
+  // Without them only its two bends would keep the blade from folding.
+  add_bending_springs(model, {.youngs_modulus = material.effective_modulus(),
+                              .thickness = kThickness,
+                              .strain_at_break = material.effective_strain_at_break()});
+  set_stiffness_proportional_damping(model, material.damping_ratio);
+  return model;
 }
 
-// Independent of the standard library's distributions, which differ between platforms.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double in(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_()) * 0x1p-64;
-  }
-  Vec3 in_box(const Vec3& low, const Vec3& high) {
-    Vec3 at;
-    for (int axis = 0; axis < 3; ++axis) at[axis] = in(low[axis], high[axis]);
-    return at;
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
-
 Mat3 random_attitude(Random& random) {
-  const Vec3 axis = random.in_box({-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0});
+  const Vec3 axis = random.in_box({Vec3(-1.0, -1.0, -1.0), Vec3(1.0, 1.0, 1.0)});
   return Eigen::AngleAxisd(random.in(0.0, 2.0 * pi), axis.normalized()).toRotationMatrix();
 }
 
@@ -70,51 +59,73 @@ Vec3 autumn_colour(Random& random) {
                      : Vec3(yellow + (2.0 * share - 1.0) * (red - yellow));
 }
 
-// A small whirlwind that walks through the yard: a vortex and a sink that move together carry the
-// leaves in and round, an updraught lifts them (they sink at 1.6 m/s), a source above pushes them
-// out again. Beside it a breeze that turns, and the wake of something that passes: a doublet.
+// `speed` half a metre from its axis, m/s; walks through the yard.
+FlowPrimitive whirl(double speed) {
+  FlowPrimitive vortex;
+  vortex.kind = FlowKind::kLineVortex;
+  vortex.axis = Vec3::UnitY();
+  vortex.position = Track<Vec3>({{0.0, Vec3(-0.4, 0.0, 0.0)},
+                                 {3.0, Vec3(0.4, 0.0, 0.3)},
+                                 {6.0, Vec3(-0.2, 0.0, -0.3)},
+                                 {9.0, Vec3(0.0, 0.0, 0.0)}});
+  vortex.strength = 2.0 * pi * 0.5 * speed;
+  vortex.core_radius = 0.35;
+  return vortex;
+}
+
+// `speed` half a metre from the axis of the vortex that it moves with, m/s.
+FlowPrimitive inflow(FlowPrimitive vortex, double speed) {
+  vortex.kind = FlowKind::kLineSource;
+  vortex.strength = -2.0 * pi * 0.5 * speed;
+  vortex.bounds = {.centre = Vec3::Zero(), .radius = 2.0, .fade = 1.0};
+  return vortex;
+}
+
+FlowPrimitive updraught(double speed) {
+  FlowPrimitive lift;
+  lift.direction = Vec3::UnitY();
+  lift.strength = Track<double>(
+      {{0.0, 0.3 * speed}, {1.0, speed}, {5.0, speed}, {6.0, 0.6 * speed}, {7.0, 1.2 * speed}});
+  lift.bounds = {.centre = Vec3(0.0, 0.5, 0.0), .radius = 1.2, .fade = 0.8};
+  return lift;
+}
+
+// `speed` a metre from it, m/s: pushes out what has come up.
+FlowPrimitive lid(double speed) {
+  FlowPrimitive source;
+  source.kind = FlowKind::kPointSource;
+  source.position = Vec3(0.0, 3.0, 0.0);
+  source.strength = 4.0 * pi * speed;
+  source.core_radius = 0.5;
+  return source;
+}
+
+FlowPrimitive breeze(double speed) {
+  FlowPrimitive turning;
+  turning.direction = {1.0, 0.0, 0.3};
+  turning.strength = Track<double>({{0.0, speed}, {3.0, -speed}, {6.0, speed}});
+  return turning;
+}
+
+// The wake of a pillar 0.3 m in radius, moving at `speed`, m/s: a doublet.
+FlowPrimitive passer_by(double speed) {
+  FlowPrimitive doublet;
+  doublet.kind = FlowKind::kLineDoublet;
+  doublet.axis = Vec3::UnitY();
+  doublet.direction = -Vec3::UnitX();
+  doublet.position = Track<Vec3>({{3.0, Vec3(-4.0, 0.0, 0.8)}, {7.0, Vec3(4.0, 0.0, 0.8)}});
+  doublet.strength = 2.0 * pi * 0.09 * speed;
+  doublet.core_radius = 0.3;
+  return doublet;
+}
+
+// A small whirlwind: a vortex and a sink that move together carry the leaves in and round, an
+// updraught lifts them (they sink at 1.6 m/s), a source above pushes them out again. Beside it a
+// breeze that turns, and somebody who passes.
 FlowField wind(double speed) {
-  const Track<Vec3> walk({{0.0, Vec3(-0.4, 0.0, 0.0)},
-                          {3.0, Vec3(0.4, 0.0, 0.3)},
-                          {6.0, Vec3(-0.2, 0.0, -0.3)},
-                          {9.0, Vec3(0.0, 0.0, 0.0)}});
-  FlowPrimitive whirl;
-  whirl.kind = FlowKind::kLineVortex;
-  whirl.axis = Vec3::UnitY();
-  whirl.position = walk;
-  whirl.strength = 2.0 * pi * 0.5 * speed;  // `speed` half a metre from its axis
-  whirl.core_radius = 0.35;
-
-  FlowPrimitive inflow = whirl;
-  inflow.kind = FlowKind::kLineSource;
-  inflow.strength = -0.7 * 2.0 * pi * 0.5 * speed;
-  inflow.bounds = {.centre = Vec3::Zero(), .radius = 2.0, .fade = 1.0};
-
-  FlowPrimitive updraught;
-  updraught.direction = Vec3::UnitY();
-  updraught.strength = Track<double>({{0.0, 0.3 * speed}, {1.0, speed}, {5.0, speed},
-                                      {6.0, 0.6 * speed}, {7.0, 1.2 * speed}});
-  updraught.bounds = {.centre = Vec3(0.0, 0.5, 0.0), .radius = 1.2, .fade = 0.8};
-
-  FlowPrimitive lid;
-  lid.kind = FlowKind::kPointSource;
-  lid.position = Vec3(0.0, 3.0, 0.0);
-  lid.strength = 4.0 * pi * 0.3 * speed;  // 0.3 of `speed` a metre from it
-  lid.core_radius = 0.5;
-
-  FlowPrimitive breeze;
-  breeze.direction = {1.0, 0.0, 0.3};
-  breeze.strength = Track<double>({{0.0, 0.1 * speed}, {3.0, -0.1 * speed}, {6.0, 0.1 * speed}});
-
-  FlowPrimitive passer_by;
-  passer_by.kind = FlowKind::kLineDoublet;
-  passer_by.axis = Vec3::UnitY();
-  passer_by.direction = -Vec3::UnitX();
-  passer_by.position = Track<Vec3>({{3.0, Vec3(-4.0, 0.0, 0.8)}, {7.0, Vec3(4.0, 0.0, 0.8)}});
-  passer_by.strength = 2.0 * pi * 0.09 * 0.5 * speed;  // a pillar of 0.3 m at half of `speed`
-  passer_by.core_radius = 0.3;
-
-  return {{whirl, inflow, updraught, lid, breeze, passer_by}};
+  const FlowPrimitive vortex = whirl(speed);
+  return {{vortex, inflow(vortex, 0.7 * speed), updraught(speed), lid(0.3 * speed),
+           breeze(0.1 * speed), passer_by(0.5 * speed)}};
 }
 
 Scene build(const ParameterValues& values) {
@@ -124,16 +135,12 @@ Scene build(const ParameterValues& values) {
   scene.seconds = 9.0;
   scene.air = Air{.wind = wind(values.at("wind"))};
   const auto leaves = std::llround(values.at("leaves"));
-  if (leaves < 1 || leaves > 5000) {
-    throw InputError({"scene leaf_magic: parameter leaves", "there would be " + std::to_string(leaves),
-                      "give 1 to 5000"});
-  }
   for (long long i = 0; i < leaves; ++i) {
     PhysicalModel model = leaf("leaf " + std::to_string(i + 1));
     model.parts[0].surface.colour = autumn_colour(random);
     model.parts[0].surface.specularity = 0.1;
     const Mat3 attitude = random_attitude(random);
-    place(model, attitude, random.in_box({-1.0, 0.1, -1.0}, {1.0, 2.2, 1.0}));
+    place(model, attitude, random.in_box({Vec3(-1.0, 0.1, -1.0), Vec3(1.0, 2.2, 1.0)}));
     scene.objects.push_back(std::move(model));
   }
   scene.camera = {{0.0, 1.6, 4.6}, {0.0, 1.15, 0.0}, 34.0};
@@ -145,9 +152,9 @@ Scene build(const ParameterValues& values) {
 SceneEntry leaf_magic() {
   return {"leaf_magic",
           "leaves float and swirl in wind that is made of moving primitives",
-          {{"leaves", 320.0, "", "how many"},
-           {"wind", 3.0, "m/s", "speed that all of the wind is measured by"},
-           {"seed", 1.0, "", "of where the leaves start"}},
+          {{"leaves", 320.0, "", "how many", 1.0, 5000.0},
+           {"wind", 3.0, "m/s", "speed that all of the wind is measured by", 0.0, 20.0},
+           {"seed", 1.0, "", "of where the leaves start", 0.0, 1e9}},
           build};
 }
 

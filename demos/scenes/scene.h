@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/environment/environment.h"
+#include "core/model/errors.h"
 #include "core/model/physical_model.h"
 
 namespace limber::demos {
@@ -26,6 +27,9 @@ struct Camera {
   Vec3 position = {0.0, 1.0, 2.0};  // m
   Vec3 target = {0.0, 0.5, 0.0};    // m
   double field_of_view_deg = 30.0;  // vertical: any shape of picture shows the same height
+  // Above 0 it goes, the way it looks, where the objects of the picture fill it (framing.h) at 1,
+  // and that many times as near as that.
+  double zoom = 0.0;
 };
 
 // Everything that one run needs: demo, test, benchmark and bug report share it. Static floor at
@@ -41,6 +45,7 @@ struct Scene {
   std::vector<RigidBox> boxes;
   std::vector<PhysicalModel> objects;
   Camera camera;
+  std::vector<Diagnostic> notes = {};  // what a user should know before it runs
 };
 
 // A number of the scene that `--set NAME=VALUE` changes.
@@ -49,6 +54,7 @@ struct Parameter {
   double value = 0.0;
   std::string unit;
   std::string meaning;
+  double least = 0.0, most = 0.0;  // both allowed
 };
 
 using ParameterValues = std::map<std::string, double>;
@@ -65,7 +71,8 @@ const std::vector<SceneEntry>& scene_library();
 
 // Builds a scene by name, or one that drops the model in the file of that name; `changes` replace
 // defaults. Throws InputError for an unknown scene or parameter (naming the nearest one), for a
-// model that validate() refuses, and as read_model().
+// value out of range, for a model that validate() refuses, and as read_model(). Notes what is too
+// soft to land on the floor.
 Scene build_scene(const std::string& name, const ParameterValues& changes = {});
 
 }  // namespace limber::demos

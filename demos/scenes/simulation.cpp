@@ -8,6 +8,7 @@
 #include "core/operators/boundary_operator.h"
 #include "core/operators/strands.h"
 #include "core/operators/time_operator.h"
+#include "demos/scenes/framing.h"
 
 namespace limber::demos {
 namespace {
@@ -22,9 +23,23 @@ double seconds_since(Clock::time_point start) {
 // faster than it fell.
 constexpr double kNotableShare = 0.005;
 
+bullet::Integration integration_of(RunOptions::Integration integration) {
+  switch (integration) {
+    case RunOptions::Integration::kImplicit:
+      return bullet::Integration::kImplicit;
+    case RunOptions::Integration::kAutomatic:
+      return bullet::Integration::kAutomatic;
+    case RunOptions::Integration::kExplicit:
+      break;
+  }
+  return bullet::Integration::kExplicit;
+}
+
 bullet::CoSimulationSettings settings_of(const RunOptions& options) {
   bullet::CoSimulationSettings settings;
   settings.step_scale = options.step_scale;
+  if (options.springs) settings.springs = *options.springs;
+  settings.integration = integration_of(options.integration);
   switch (options.policy) {
     case Policy::kSwitching:
       settings.representation = bullet::Representation::kSwitching;
@@ -64,6 +79,17 @@ bool has_strands(const PhysicalModel& model) {
                      [](const auto& part) { return part.surface.strand_radius > 0.0; });
 }
 
+// What is seen of the objects: the corners of their triangles and the ends of their strands.
+std::vector<Vec3> seen_points(const Snapshot& snapshot) {
+  std::vector<Vec3> points;
+  for (const Snapshot::Body& body : snapshot.bodies) {
+    for (const SurfaceTriangle& triangle : body.surface.triangles)
+      for (std::int32_t corner : triangle.corners) points.push_back(body.surface.points[corner]);
+    for (const Snapshot::RopeLength& s : body.strands) points.insert(points.end(), {s.a, s.b});
+  }
+  return points;
+}
+
 LedgerTotals totals_of(const bullet::CoSimulation& limber) {
   LedgerTotals totals;
   for (const bullet::SwitchRecord& record : limber.switches()) {
@@ -93,8 +119,8 @@ struct Simulation::State {
   double fastest_chip = 0.0;   // m/s
   double fastest_piece_rel = 0.0;
   double highest_rise = -1e30;
-  double start_energy = 0.0;    // J
-  double highest_energy = 0.0;  // J
+  double start_energy = 0.0;                    // J
+  double highest_energy = 0.0;                  // J
   std::vector<Vec3> start_centre;               // of each object
   std::vector<std::vector<PointMotion>> start;  // of each object's points
   std::vector<std::vector<double>> masses;      // likewise, kg
@@ -182,8 +208,8 @@ struct Simulation::State {
         std::max(fastest_piece_rel, std::sqrt(now.velocity.squaredNorm() / explained));
   }
 
-  // Of free fall to y = 0, m/s, of the point that starts with the most energy: pieces come from every
-  // part of an object.
+  // Of free fall to y = 0, m/s, of the point that starts with the most energy: pieces come from
+  // every part of an object.
   double impact_speed() const {
     double squared = 0.0;
     for (const std::vector<PointMotion>& points : start) {
@@ -229,6 +255,7 @@ struct Simulation::State {
       ++body.fragments;
       flexible += piece.flexible ? 1 : 0;
     }
+    body.softening = model.object.softening;
     body.representation = flexible == 0                ? "rigid"
                           : flexible == body.fragments ? "flexible"
                                                        : "mixed";
@@ -280,6 +307,10 @@ Snapshot Simulation::snapshot() const {
     const auto [centre, rotation] = state_->stage.box_pose(state_->boxes[b]);
     snapshot.boxes.push_back({state_->scene.boxes[b], centre, rotation});
   }
+  if (const double zoom = snapshot.camera.zoom; zoom > 0.0) {
+    const Box3 box = box_of_most(seen_points(snapshot));
+    if (!box.isEmpty()) snapshot.camera = framed(snapshot.camera, box, zoom);
+  }
   return snapshot;
 }
 
@@ -319,6 +350,7 @@ RunResult Simulation::result() const {
   result.highest_energy_rel =
       state_->start_energy > 0.0 ? state_->highest_energy / state_->start_energy : 0.0;
   result.state_hash = limber.state_hash();
+  result.spring_precision = settings_of(state_->options).springs;
   result.ledger = totals_of(limber);
   for (const bullet::SwitchRecord& record : limber.switches()) {
     result.switches.push_back(event_of(record, state_->scene));
@@ -327,6 +359,8 @@ RunResult Simulation::result() const {
     result.summaries.push_back(state_->summary(o));
   }
   result.samples = state_->samples;
+  for (const Diagnostic& note : state_->scene.notes) result.notes.push_back(note.text());
+  for (const Diagnostic& note : limber.notes()) result.notes.push_back(note.text());
   return result;
 }
 
@@ -343,14 +377,14 @@ RunResult run(const Scene& scene, const RunOptions& options,
   return simulation.result();
 }
 
-double spring_rate(const Scene& scene, double wall_seconds) {
+double spring_rate(const Scene& scene, SpringPrecision precision, double wall_seconds) {
   const auto largest = std::max_element(
       scene.objects.begin(), scene.objects.end(),
       [](const auto& a, const auto& b) { return a.edges.size() < b.edges.size(); });
   Lattice lattice;
   add_object(lattice, *largest);
   rebuild_active(lattice);
-  TimeOperator time_operator(lattice);
+  TimeOperator time_operator(lattice, Integrator::kSymplecticEuler, precision);
   const double dt = time_operator.largest_step();
   std::uint64_t updates = 0;
   const Clock::time_point start = Clock::now();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/dynamics/spring_precision.h"
 #include "core/model/surface_model.h"
 #include "demos/scenes/scene.h"
 
@@ -19,6 +20,10 @@ struct RunOptions {
   double seconds = 0.0;     // 0: as the scene says
   double tick = 0.0;        // s; 0: as the scene says
   double step_scale = 1.0;  // (0, 1]: factor on the automatically chosen substep
+  std::optional<SpringPrecision> springs = {};  // none: as precise as the world
+  // Ways to integrate lattices, as bullet::Integration.
+  enum class Integration { kExplicit, kImplicit, kAutomatic };
+  Integration integration = Integration::kExplicit;
 };
 
 // How one hand-over, or all of them together, changed what must not change.
@@ -62,13 +67,14 @@ struct BodySummary {
   Vec3 velocity;
   std::size_t broken_edges = 0;
   std::size_t fragments = 0;  // connected pieces with at least one edge
+  double softening = 1.0;     // S of its material
 };
 
 struct RunResult {
   std::string scene;
   double seconds = 0.0, tick = 0.0, wall_s = 0.0;
   std::size_t bodies = 0, points = 0, springs = 0;
-  double softening = 1.0;      // largest S in the scene
+  double softening = 1.0;      // largest S of any object; each has its own in `summaries`
   double object_size_m = 0.0;  // largest extent of the largest object, to scale errors
   std::uint64_t spring_updates = 0;
   std::size_t broken_edges = 0;
@@ -87,15 +93,17 @@ struct RunResult {
   // Speed of a piece (over 0.5 % of the mass) over what falling from its own start to where it is
   // explains, the worst: above 1 it got energy from other pieces, or out of nowhere.
   double fastest_piece_rel = 0.0;
-  // Kinetic and gravitational energy of all pieces, relative to the floor, over that at the start, the
-  // largest: above 1 something was pumped.
+  // Kinetic and gravitational energy of all pieces, relative to the floor, over that at the start,
+  // the largest: above 1 something was pumped.
   double highest_energy_rel = 0.0;
   double highest_rise_m = 0.0;  // how far any piece's centre rose above its object's start; <= 0
   std::uint64_t state_hash = 0;
+  SpringPrecision spring_precision = SpringPrecision::kDouble;  // the hash depends on it
   LedgerTotals ledger;
   std::vector<SwitchEvent> switches;
   std::vector<BodySummary> summaries;
   std::vector<TickSample> samples;
+  std::vector<std::string> notes;  // the scene's, as text
 };
 
 // What a picture needs at one instant.
@@ -149,6 +157,6 @@ RunResult run(const Scene& scene, const RunOptions& options,
 
 // Spring updates per second of the scene's largest object alone in free space, springs, damping,
 // break check and integration only: the micro-benchmark that `baseline_efficiency` divides by.
-double spring_rate(const Scene& scene, double wall_seconds);
+double spring_rate(const Scene& scene, SpringPrecision precision, double wall_seconds);
 
 }  // namespace limber::demos

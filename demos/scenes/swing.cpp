@@ -98,8 +98,10 @@ Scene build(const ParameterValues& values) {
   scene.seconds = 8.0;
   scene.air = Air{.wind = gusts(values.at("wind"))};
   scene.objects.push_back(std::move(model));
-  scene.boxes.push_back({.name = "bar", .half_extents = {0.5, 0.03, 0.03},
-                         .centre = {0.0, kBar + 0.035, 0.0}, .colour = {0.4, 0.3, 0.2}});
+  scene.boxes.push_back({.name = "bar",
+                         .half_extents = {0.5, 0.03, 0.03},
+                         .centre = {0.0, kBar + 0.035, 0.0},
+                         .colour = {0.4, 0.3, 0.2}});
   scene.camera = {{3.4, 1.5, 2.6}, {0.0, 1.15, 0.0}, 34.0};
   return scene;
 }
@@ -109,9 +111,10 @@ Scene build(const ParameterValues& values) {
 SceneEntry swing() {
   return {"swing",
           "a wooden seat on two ropes in gusting wind",
-          {{"push", 1.5, "m/s", "speed of the seat at the start"},
-           {"wind", 12.0, "m/s", "of the gusts at their height"},
-           {"softening", 400.0, "", "S of wood and hemp: modulus / S, strain at break x sqrt S"}},
+          {{"push", 1.5, "m/s", "speed of the seat at the start", -10.0, 10.0},
+           {"wind", 12.0, "m/s", "of the gusts at their height", -40.0, 40.0},
+           {"softening", 400.0, "", "S of wood and hemp: modulus / S, strain at break x sqrt S",
+            1.0, 1e4}},
           build};
 }
 

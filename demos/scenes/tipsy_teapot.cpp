@@ -61,12 +61,13 @@ Scene build(const ParameterValues& values) {
 SceneEntry tipsy_teapot() {
   return {"tipsy_teapot",
           "a teapot falls past a table's edge, breaks, and its pieces come down on the floor",
-          {{"height", 1.35, "m", "of the lowest point above the floor"},
-           {"speed", 0.3, "m/s", "forward, towards the table's edge"},
-           {"spin", 1.5, "rad/s", "forward"},
-           {"density", 2400.0, "kg/m^3", "of the ceramic"},
-           {"softening", 2000.0, "", "S of the ceramic: modulus / S, strain at break x sqrt S"},
-           {"seed", 1.0, "", "of the flaws"}},
+          {{"height", 1.35, "m", "of the lowest point above the floor", 0.0, 100.0},
+           {"speed", 0.3, "m/s", "forward, towards the table's edge", -20.0, 20.0},
+           {"spin", 1.5, "rad/s", "forward", -50.0, 50.0},
+           {"density", 2400.0, "kg/m^3", "of the ceramic", 100.0, 2e4},
+           {"softening", 2000.0, "", "S of the ceramic: modulus / S, strain at break x sqrt S", 1.0,
+            1e5},
+           {"seed", 1.0, "", "of the flaws", 0.0, 1e9}},
           build};
 }
 

@@ -65,9 +65,9 @@ void substep(benchmark::State& state, const Features& features) {
   state.counters["simulated_bytes_per_point"] =
       static_cast<double>(memory.total() - memory.authored) / points;
   state.counters["authored_bytes_per_point"] = static_cast<double>(memory.authored) / points;
-  state.counters["time_per_point_and_substep"] = benchmark::Counter(
-      points * kSubsteps,
-      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["time_per_point_and_substep"] =
+      benchmark::Counter(points * kSubsteps, benchmark::Counter::kIsIterationInvariantRate |
+                                                 benchmark::Counter::kInvert);
 }
 
 BENCHMARK_CAPTURE(substep, 1_springs, Features{})->Name("features/1_springs_alone");

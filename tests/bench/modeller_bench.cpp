@@ -36,12 +36,8 @@ double peak_memory_GB() {
 }
 
 Material clay() {
-  Material material;
-  material.density = 2000.0;
-  material.youngs_modulus = 1.5e7;
-  material.strain_at_break = 0.01;
-  material.damping_ratio = 0.2;
-  return material;
+  return {
+      .density = 2000.0, .youngs_modulus = 1.5e7, .strain_at_break = 0.01, .damping_ratio = 0.2};
 }
 
 void model_write_and_read(benchmark::State& state) {

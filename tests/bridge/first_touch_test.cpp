@@ -24,6 +24,9 @@ const Block kBrick{.cells = {4, 2, 2},
 CoSimulationSettings sensitive() {
   CoSimulationSettings settings;
   settings.switching.visible_strain = 0.002;
+  // How long a landed brick rocks is chaotic: of 40 heights from 0.55 to 0.65 m, 3 rock by more than a
+  // millimetre after a second with springs in double precision, and 6 with single.
+  settings.springs = SpringPrecision::kDouble;
   return settings;
 }
 

@@ -106,14 +106,14 @@ TEST(CliMain, RefusesAnUnwritableTargetBeforeItRuns) {
 TEST(CliMain, NamesWhatWasTyped) {
   EXPECT_EQ(limber({"fly"}).err,
             "limber: command line: there is no command 'fly'; the commands are run, compare, "
-            "render, model, info\n");
+            "render, model, info, stability\n");
   EXPECT_EQ(limber({"run", any_scene(), "--fly", "3"}).err,
             "limber: command line: '--fly 3' is not understood; `limber run --help` says what is "
             "possible\n");
 }
 
 TEST(CliMain, HasHelpForEveryCommand) {
-  for (const char* command : {"run", "compare", "render", "model", "info"}) {
+  for (const char* command : {"run", "compare", "render", "model", "info", "stability"}) {
     const Said said = limber({command, "--help"});
     EXPECT_EQ(said.code, 0);
     EXPECT_THAT(said.out, HasSubstr("Usage: limber " + std::string(command)));

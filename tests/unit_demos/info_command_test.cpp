@@ -109,6 +109,21 @@ TEST_F(InfoCommand, CountsWhatIsBrokenAndSkins) {
   EXPECT_GT(json["broken_edges"], 0);
 }
 
+// 57 bytes of a name are shown, but never a part of a character: 1 + 18 x 3 and 3 + 18 x 3.
+TEST_F(InfoCommand, CutsLongNamesBetweenCharacters) {
+  const auto euros = [](int n) {
+    std::string text;
+    for (int i = 0; i < n; ++i) text += "\xe2\x82\xac";
+    return text;
+  };
+  for (const char* start : {"a", "abc"}) {
+    PhysicalModel model = test::block({});
+    model.name = start + euros(30);
+    write_model(model, file_);
+    EXPECT_THAT(info({file_}).out, HasSubstr("\"" + (start + euros(18)) + "...\"\n"));
+  }
+}
+
 TEST_F(InfoCommand, WritesTheJsonBesideTheTable) {
   write_model(test::block({}), file_);
   const std::string target = (folder_ / "a.json").string();

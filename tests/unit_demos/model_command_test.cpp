@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/model/validate.h"
 #include "core/modeller/material_table.h"
 #include "core/storage/model_file.h"
 #include "demos/cli/cli_main.h"
+#include "demos/cli/model_report.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -89,6 +91,67 @@ TEST_F(ModelCommand, DropRefusesNothingAndWhatStartsBelowTheFloor) {
   EXPECT_EQ(read_model(file_).skins.size(), 1u);  // still there
 }
 
+TEST_F(ModelCommand, GivesTheSameFactsToPrograms) {
+  const Said said =
+      limber({"model", mesh_, "--spacing", "0.05", "--softening", "100", "--json", "-"});
+  ASSERT_EQ(said.code, 0) << said.err;
+  const auto json = nlohmann::json::parse(said.out);  // and nothing else
+  EXPECT_EQ(json["mesh"], mesh_);
+  EXPECT_EQ(json["material"], "porcelain");
+  EXPECT_EQ(json["cells"], 128);
+  EXPECT_EQ(json["spacing_m"], 0.05);
+  EXPECT_NEAR(json["mass_kg"].get<double>(), material_named("porcelain").material.density * 0.016,
+              1e-9);
+  EXPECT_NEAR(json["fit"]["volume_error"].get<double>(), 0.0, 1e-6);  // positions are floats
+  EXPECT_GT(json["substeps_per_tick_unsoftened"], json["substeps_per_tick"]);
+  EXPECT_TRUE(json["output"].is_null());
+  EXPECT_THAT(json["notes"].dump(), HasSubstr("Poisson"));
+  EXPECT_EQ(limber({"model", mesh_, "--json", mesh_}).code, 2);
+  EXPECT_EQ(limber({"model", mesh_, "--json", file_, "-o", file_}).code, 2);
+}
+
+TEST_F(ModelCommand, SaysNothingOfItsProgressInAPipe) {
+  const Said said = limber({"model", mesh_, "--spacing", "0.05"});
+  EXPECT_EQ(said.err, "");
+}
+
+TEST_F(ModelCommand, NotesNameTheFile) {
+  const Said said = limber({"model", mesh_, "--spacing", "0.05"});
+  EXPECT_THAT(said.out, HasSubstr("note: " + mesh_ + ": material: its Poisson ratio"));
+  EXPECT_THAT(limber({"model", mesh_, "--spacing", "1"}).err,
+              HasSubstr("limber: " + mesh_ + ": is thinner than a cell"));
+}
+
+TEST_F(ModelCommand, AsksWhetherTheUnitIsRight) {
+  const Said large = limber({"model", mesh_, "--scale", "1000", "--spacing", "50"});
+  EXPECT_EQ(large.code, 0);
+  EXPECT_THAT(large.err, HasSubstr("it is 400 m long"));
+  EXPECT_THAT(large.err, HasSubstr("--scale 0.001 for millimetres"));
+  EXPECT_THAT(limber({"model", mesh_, "--scale", "0.001", "--spacing", "5e-5"}).err,
+              HasSubstr("it is 0.0004 m long"));
+}
+
+TEST(CountNotes, SayHowManyCellsThereWillBeAndWhatToAskFor) {
+  EXPECT_TRUE(count_notes("a", 1e-3, 2e-3).empty());  // 125,000
+  const auto notes = count_notes("a", 1e-3, 1e-3);    // a million
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_THAT(notes[0].what, HasSubstr("1,000,000 cells of 0.001 m"));
+  EXPECT_THAT(notes[0].remedy, HasSubstr("--spacing 0.0037 makes about 20,000"));
+}
+
+TEST_F(ModelCommand, SaysWhatIsTooSoftToLandBeforeItLands) {
+  const Said made =
+      limber({"model", mesh_, "--material", "gelatine", "--spacing", "0.05", "-o", file_});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("cells turn inside out"));
+  const Said run = limber({"run", file_, "--seconds", "0.02", "--json", "-"});
+  EXPECT_THAT(run.err, HasSubstr("note: " + file_ + ": box: it is too soft to land at 4.43 m/s"));
+  EXPECT_THAT(nlohmann::json::parse(run.out)["notes"].dump(), HasSubstr("too soft"));
+  EXPECT_EQ(limber({"run", file_, "--seconds", "0.02", "--set", "height=0"}).code, 0);
+  ASSERT_EQ(limber({"model", mesh_, "--spacing", "0.05", "-o", file_}).code, 0);
+  EXPECT_EQ(limber({"run", file_, "--seconds", "0.02"}).err, "");
+}
+
 TEST_F(ModelCommand, ListsTheMaterials) {
   const Said said = limber({"model", "--materials"});
   EXPECT_EQ(said.code, 0);
@@ -107,6 +170,11 @@ TEST_F(ModelCommand, RefusesWhatMakesNoSense) {
       {"model", mesh_, "--spacing", "1"},
       {"model", mesh_, "--softening", "0.5"},
       {"model", mesh_, "--scale", "0"},
+      {"model", mesh_, "--scale", "1e30"},
+      {"model", mesh_, "--spacing", "1e30"},
+      {"model", mesh_, "--softening", "1e30"},
+      {"model", mesh_, "--damping-ratio", "1e30"},
+      {"model", mesh_, "--internal-damping", "1e30"},
       {"model", mesh_, "-o", (folder_ / "none" / "a.limber").string()},
       {"model", mesh_, "-o", mesh_},
   };

@@ -1,9 +1,11 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "demos/cli/body_groups.h"
 #include "demos/cli/report_json.h"
 #include "demos/cli/report_tables.h"
 
@@ -135,7 +137,8 @@ TEST(RunJson, HoldsEveryPromisedKey) {
   for (const char* key : {"/scene", "/seconds", "/wall_s", "/real_time_factor", "/state_hash",
                           "/bodies/0/name", "/bodies/0/representation", "/bodies/0/mass_kg",
                           "/bodies/0/com_m", "/bodies/0/velocity_m_s", "/bodies/0/broken_edges",
-                          "/bodies/0/fragments", "/ledger/momentum_rel"}) {
+                          "/bodies/0/fragments", "/bodies/0/softening", "/softening",
+                          "/piece_masses_kg", "/notes", "/ledger/momentum_rel"}) {
     EXPECT_TRUE(j.contains(json::json_pointer(key))) << key;
   }
   EXPECT_EQ(j["state_hash"], "0000000000000abc");
@@ -155,6 +158,74 @@ TEST(RunJson, IsNullForWhatIsNotFinite) {
   RunResult run = example_run();
   run.highest_rise_m = std::nan("");
   EXPECT_TRUE(json::parse(run_json(run, Policy::kSwitching))["highest_rise_m"].is_null());
+}
+
+TEST(RunJson, HasTheSofteningOfEachBodyAndTheLargest) {
+  RunResult run = example_run();
+  run.summaries.push_back(run.summaries[0]);
+  run.summaries[0].softening = 1.0;
+  run.summaries[1].softening = 2000.0;
+  const json j = json::parse(run_json(run, Policy::kSwitching));
+  EXPECT_EQ(j["bodies"][0]["softening"], 1.0);
+  EXPECT_EQ(j["bodies"][1]["softening"], 2000.0);
+  EXPECT_EQ(j["softening"], 2000.0);
+}
+
+BodySummary leaf(int i, const std::string& representation) {
+  return {fmt::format("leaf {}", i), representation, 2.0, Vec3(i, 0, 0), Vec3(0, i, 0), 3, 1, 4.0};
+}
+
+TEST(GroupedBodies, AddsUpManyOfAKind) {
+  std::vector<BodySummary> bodies = {leaf(1, "rigid"), leaf(2, "rigid"), leaf(3, "flexible"),
+                                     leaf(4, "rigid")};
+  bodies.insert(bodies.begin() + 1, {"pot 2", "mixed", 1.0, Vec3(1, 2, 3), Vec3(4, 5, 6), 7, 8});
+  const std::vector<BodySummary> rows = grouped_bodies(bodies);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].name, "4 x leaf");
+  EXPECT_EQ(rows[0].representation, "1 flexible, 3 rigid");
+  EXPECT_EQ(rows[0].mass_kg, 8.0);
+  EXPECT_EQ(rows[0].centre_of_mass, Vec3(2.5, 0, 0));
+  EXPECT_EQ(rows[0].velocity, Vec3(0, 2.5, 0));
+  EXPECT_EQ(rows[0].broken_edges, 12u);
+  EXPECT_EQ(rows[0].fragments, 4u);
+  EXPECT_EQ(rows[0].softening, 4.0);
+  EXPECT_EQ(rows[1].name, "pot 2");
+}
+
+TEST(GroupedBodies, LeavesFewOfAKindAlone) {
+  const std::vector<BodySummary> bodies = {leaf(1, "rigid"), leaf(2, "rigid"), leaf(3, "rigid")};
+  EXPECT_EQ(grouped_bodies(bodies).size(), 3u);
+  EXPECT_TRUE(grouped_bodies({}).empty());
+}
+
+TEST(RunReport, GroupsBodiesThatTheJsonLists) {
+  RunResult run = example_run();
+  run.summaries.clear();
+  for (int i = 1; i <= 320; ++i) run.summaries.push_back(leaf(i, "rigid"));
+  const std::string text = run_report(run, Policy::kSwitching);
+  EXPECT_THAT(text, HasSubstr("320 x leaf"));
+  EXPECT_THAT(text, Not(HasSubstr("leaf 17")));
+  EXPECT_EQ(json::parse(run_json(run, Policy::kSwitching))["bodies"].size(), 320u);
+}
+
+TEST(RunReport, HasThePiecesOfWhatBroke) {
+  RunResult run = example_run();
+  EXPECT_THAT(run_report(run, Policy::kSwitching), Not(HasSubstr("what broke")));
+  run.broken_edges = 70;
+  run.piece_masses = {0.5, 0.25, 0.125};
+  run.debris_mass = 0.03;
+  std::string text = run_report(run, Policy::kSwitching);
+  EXPECT_THAT(text, HasSubstr("0.5, 0.25, 0.125\n"));
+  EXPECT_THAT(text, HasSubstr("0.03"));
+  run.piece_masses.assign(50, 0.01);
+  text = run_report(run, Policy::kSwitching);
+  EXPECT_THAT(text, HasSubstr("0.01, ..."));
+  EXPECT_EQ(json::parse(run_json(run, Policy::kSwitching))["piece_masses_kg"].size(), 50u);
+}
+
+TEST(SceneList, NamesTheRangeOfEachParameter) {
+  SceneEntry pot{"pot", "a pot", {{"height", 1.0, "m", "of the fall", 0.0, 100.0}}, {}};
+  EXPECT_THAT(scene_list({pot}), HasSubstr("height = 1 m  of the fall (0 to 100)"));
 }
 
 TEST(RunReport, ListsNoMoreSwitchesThanFitOnAScreen) {

@@ -37,7 +37,8 @@ TEST(ElementBound, OfABlockIsNotBelowTheProvedFrequencyLessItsMargin) {
   EXPECT_GE(element_frequency_bound(model), highest_frequency(model).omega_max / 1.06);
 }
 
-// The definition, one dense matrix over all points for each element and nothing remembered.
+// The definition, one dense matrix over all points for each element and nothing remembered. Springs
+// under tension are stiff across as well.
 double plain_bound(const PhysicalModel& model) {
   const IndexRows cells_of = edge_cells(model.geometry);
   std::vector<double> total(model.points.size(), 0.0);
@@ -53,11 +54,16 @@ double plain_bound(const PhysicalModel& model) {
     for (EdgeId e : cell.edges) {
       const auto [a, b] = model.geometry.edges[e];
       const double k = model.edges[e].stiffness / static_cast<double>(cells_of[e.index()].size());
-      Eigen::VectorXd along = Eigen::VectorXd::Zero(n);
-      const Vec3 d = (model.geometry.points[b] - model.geometry.points[a]).normalized();
-      along.segment<3>(3 * b.value) = d;
-      along.segment<3>(3 * a.value) = -d;
-      K += k * along * along.transpose();
+      const Vec3 d = model.geometry.points[b] - model.geometry.points[a];
+      const double tension = std::max(0.0, 1.0 - model.edges[e].rest_length / d.norm());
+      const Vec3 first = d.unitOrthogonal(), second = d.normalized().cross(first);
+      for (const auto& [direction, share_of_k] :
+           {std::pair(Vec3(d.normalized()), 1.0), {first, tension}, {second, tension}}) {
+        Eigen::VectorXd along = Eigen::VectorXd::Zero(n);
+        along.segment<3>(3 * b.value) = direction;
+        along.segment<3>(3 * a.value) = -direction;
+        K += share_of_k * k * along * along.transpose();
+      }
       share.segment<3>(3 * a.value).array() += k;
       share.segment<3>(3 * b.value).array() += k;
     }

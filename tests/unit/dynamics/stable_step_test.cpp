@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/analysis/vibration.h"
 #include "core/model/errors.h"
 #include "tests/support/blocks.h"
 #include "tests/support/dense.h"
@@ -114,6 +115,42 @@ TEST(HighestFrequency, OfALongRopeIsFound) {
   const double exact = 2.0 * std::sqrt(300.0 / 0.5);  // less (pi / 10000)^2 / 2
   EXPECT_GT(bound.omega_max, exact * (1.0 - 1e-6));
   EXPECT_LT(bound.omega_max, exact * 1.04);
+}
+
+// Whatever the spring's direction turns out to be: the bound is that of the dumbbell at rest.
+TEST(HighestFrequency, OfCoincidentPointsIsThatOfTheirSpring) {
+  PhysicalModel model = chain(2, 300.0, 0.5);
+  model.geometry.points[PointId(std::size_t{1})] = model.geometry.points[PointId(std::size_t{0})];
+  expect_tight_bound(model, std::sqrt(2.0 * 300.0 / 0.5));
+}
+
+// The tangent stiffness of a compressed lattice is smaller than that at rest, to which it returns.
+TEST(HighestFrequency, OfACompressedLatticeIsNoLowerThanAtRest) {
+  const PhysicalModel rest = test::block({.cells = {2, 2, 2}});
+  for (double scale : {0.8, 0.3, -0.5, 0.0}) {
+    PhysicalModel model = rest;
+    for (Vec3& x : model.geometry.points) x *= scale;
+    for (std::size_t most_entries : {std::size_t{3500000}, std::size_t{1}}) {
+      EXPECT_GE(highest_frequency(model, most_entries).omega_max, exact_frequency(rest)) << scale;
+    }
+  }
+}
+
+// By definition: the tangent stiffness of a lattice stretched to twice its size, dense.
+TEST(HighestFrequency, OfALatticeUnderTensionIsNotExceeded) {
+  PhysicalModel model = test::block({.cells = {2, 2, 2}});
+  for (Vec3& x : model.geometry.points) x *= 2.0;
+  const double exact = exact_highest_frequency(model);
+  for (std::size_t most_entries : {std::size_t{3500000}, std::size_t{1}}) {
+    EXPECT_GE(highest_frequency(model, most_entries).omega_max, exact);
+  }
+}
+
+TEST(StableStep, KeepsItsDigitsWhereDampingIsAll) {
+  // 2 / omega / (2 zeta) to first order
+  EXPECT_DOUBLE_EQ(stable_step(250.0, 1e9), 1.0 / (250.0 * 1e9));
+  EXPECT_GT(stable_step(1.0, 1e300), 0.0);
+  EXPECT_LT(stable_step(1.0, 1e300), 1e-299);
 }
 
 TEST(HighestFrequency, BeyondAllNumbersIsRefused) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "core/model/validate.h"
 #include "tests/support/blocks.h"
@@ -55,6 +56,37 @@ TEST(ValidateSkins, WantsTheCellsOwnCorners) {
               HasSubstr("S2 its corners are not the eight points of cell 0"));
   EXPECT_THAT(first_defect([](Skin& s) { s.cells[0].corners[0] = s.cells[0].corners[1]; }),
               HasSubstr("S2"));
+}
+
+TEST(ValidateSkins, WantsTheCornersInOrder) {
+  const auto wrong = HasSubstr("skin 0: cell 0: S2 its corners are not in the order of cell 1");
+  const auto swap = [](int c, int d) {
+    return [=](Skin& s) { std::swap(s.cells[0].corners[c], s.cells[0].corners[d]); };
+  };
+  EXPECT_THAT(first_defect(swap(0, 1)), wrong);
+  EXPECT_THAT(first_defect(swap(2, 3)), wrong);
+  EXPECT_THAT(first_defect(swap(0, 7)), wrong);
+  // As other formats number a hexahedron: round the lower side, then round the upper one.
+  EXPECT_THAT(first_defect([](Skin& s) {
+                std::swap(s.cells[0].corners[2], s.cells[0].corners[3]);
+                std::swap(s.cells[0].corners[6], s.cells[0].corners[7]);
+              }),
+              wrong);
+  // A mirror image: the x axis turned round.
+  EXPECT_THAT(first_defect([](Skin& s) {
+                for (int c : {0, 2, 4, 6})
+                  std::swap(s.cells[0].corners[c], s.cells[0].corners[c + 1]);
+              }),
+              wrong);
+}
+
+// x, y and z of one lattice are y, z and x of another.
+TEST(ValidateSkins, TakesTheAxesAsTheyAre) {
+  PhysicalModel m = with_skin();
+  const auto corners = m.skins[0].cells[0].corners;
+  for (int c = 0; c < 8; ++c) m.skins[0].cells[0].corners[c] = corners[(c << 1 & 6) | c >> 2];
+  EXPECT_NE(m.skins[0].cells[0].corners, corners);
+  EXPECT_TRUE(validate(m).empty());
 }
 
 TEST(ValidateSkins, BoundsPlaces) {

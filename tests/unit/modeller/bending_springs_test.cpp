@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -22,12 +23,7 @@ constexpr double kThickness = 2e-6;  // m
 constexpr double kModulus = 1e9;     // Pa
 constexpr double kDensity = 1000.0;  // kg/m^3
 
-Material foil() {
-  Material m;
-  m.density = kDensity;
-  m.youngs_modulus = kModulus;
-  return m;
-}
+Material foil() { return {.density = kDensity, .youngs_modulus = kModulus}; }
 
 // n rows of cells along a quarter of a circle from (R, 0) to (0, R), n / 4 equilateral or square
 // ones in a row, which runs along the direction that is not bent.
@@ -136,6 +132,40 @@ TEST(BendingSprings, AFlatSheetGetsTheLimit) {
   EXPECT_TRUE(validate(m).empty());
   const ElasticityMatrix after = elasticity(lattice_around(m, middle, volume));
   EXPECT_LT((after - 1.07 * before).norm(), 1e-6 * before.norm());
+}
+
+// Flat cells twice as long as wide: isotropy leaves nothing for the lines along them. A spring of
+// nothing under no rise is no spring.
+TEST(BendingSprings, LeaveOutLinesThatCarryNothing) {
+  const ParametricSurface plane = [](double u, double v) -> Vec3 { return {2.0 * u, v, 0.0}; };
+  PhysicalModel m = with_sheet_material(sheet(plane, {6, 6, SheetCells::kSquares, false}, "flat"),
+                                        "flat", foil(), {.thickness = kThickness});
+  const std::size_t before = m.edges.size();
+  const int added = add_bending_springs(m, springs());
+  EXPECT_EQ(m.edges.size(), before + static_cast<std::size_t>(added));
+  EXPECT_TRUE(validate(m).empty());
+  for (std::size_t e = before; e < m.edges.size(); ++e)
+    EXPECT_GT(m.edges[EdgeId(e)].stiffness, 0.0) << e;
+  // As many as squares would get, but for the five along each of the inner five rows.
+  EXPECT_EQ(added, 120 - 5 * 5);
+}
+
+// Four triangles around a point, two of them folded back onto the others: their areas cancel.
+TEST(BendingSprings, LeaveOutFolds) {
+  GeometricModelBuilder builder;
+  builder.begin_subobject("fold");
+  const PointId middle = builder.add_point({0, 0, 0});
+  const std::array<PointId, 4> rim = {builder.add_point({1, 0, 0}), builder.add_point({0, 1, 0}),
+                                      builder.add_point({-1, 0, 0}), builder.add_point({0, 1, 0})};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const PointId a = rim[i], b = rim[(i + 1) % 4];
+    const std::array<std::array<PointId, 2>, 3> edges = {{{middle, a}, {a, b}, {b, middle}}};
+    const std::array<std::array<PointId, 3>, 1> face = {{{middle, a, b}}};
+    builder.add_cell(edges, face);
+  }
+  PhysicalModel m =
+      with_sheet_material(builder.finish(), "fold", foil(), {.thickness = kThickness});
+  EXPECT_EQ(add_bending_springs(m, springs()), 0);
 }
 
 TEST(BendingSprings, RefuseWhatIsSenseless) {

@@ -12,12 +12,7 @@ namespace limber {
 namespace {
 
 Material soft() {
-  Material m;
-  m.density = 1000.0;
-  m.youngs_modulus = 2e6;
-  m.strain_at_break = 0.01;
-  m.softening = 4.0;
-  return m;
+  return {.density = 1000.0, .youngs_modulus = 2e6, .strain_at_break = 0.01, .softening = 4.0};
 }
 
 TEST(BondLike, IsARodOfTheMaterial) {

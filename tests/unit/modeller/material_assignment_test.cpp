@@ -16,21 +16,12 @@ namespace {
 using ::testing::HasSubstr;
 
 Material light() {
-  Material m;
-  m.density = 500.0;
-  m.youngs_modulus = 1e6;
-  m.strain_at_break = 0.02;
-  m.strain_at_crush = 0.5;
-  return m;
+  return {.density = 500.0, .youngs_modulus = 1e6, .strain_at_break = 0.02, .strain_at_crush = 0.5};
 }
 
 Material heavy() {
-  Material m = light();
-  m.density = 8000.0;
-  m.youngs_modulus = 3e6;
-  m.strain_at_break = 0.01;
-  m.strain_at_crush = 0.9;
-  return m;
+  return {
+      .density = 8000.0, .youngs_modulus = 3e6, .strain_at_break = 0.01, .strain_at_crush = 0.9};
 }
 
 // Two cells of 0.1 m side by side along x.

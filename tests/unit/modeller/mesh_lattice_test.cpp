@@ -188,7 +188,7 @@ TEST(MeshLattice, DropsSpecks) {
       test::together(test::icosphere(1, 3), test::box_mesh({1.4, 0, 0}, {1.5, 0.1, 0.1})), 0.1);
   EXPECT_EQ(made.report.pieces, 1u);
   EXPECT_GE(made.report.dropped_cells, 1u);
-  EXPECT_THAT(all_notes(made), HasSubstr("specks"));
+  EXPECT_THAT(all_notes(made), HasSubstr("1 of 4225 cells is a speck"));
 }
 
 TEST(MeshLattice, RefusesWhatBoundsNoVolume) {
@@ -225,14 +225,14 @@ TEST(MeshLattice, RefusesSheetsBeforeItNamesASpacing) {
   for (double spacing : {0.3, 0.04, 1e-4})
     for (const TriangleMesh& mesh : {cloth(0.0), tilted, two_sided})
       EXPECT_THAT(refusal(mesh, spacing), HasSubstr("is a sheet: encloses nothing"));
-  for (double spacing : {0.3, 0.04})
+  for (double spacing : {0.3, 0.04, 1e-4})
     EXPECT_THAT(refusal(cloth(0.03), spacing), HasSubstr("is a sheet: encloses nothing"));
 }
 
 // One triangle less is still a plate 0.29 m thick, of which one layer of cells holds 0.2 m. Samples
 // are a third of a cell apart: the two sides are off by that much at most.
 TEST(MeshLattice, JudgesAMeshWithAHoleLikeItsClosedTwin) {
-  const TriangleMesh plate = refined(test::box_mesh({0, 0, 0}, {2, 0.29, 2}), 0.2, 100'000);
+  const TriangleMesh plate = refined(test::box_mesh({0, 0, 0}, {2, 0.29, 2}), 0.2, 100'000).mesh;
   TriangleMesh pricked = plate;
   pricked.triangles.pop_back();
   EXPECT_THAT(refusal(plate, 0.2), HasSubstr("is too thin for cells of 0.2 m"));
@@ -266,7 +266,7 @@ TEST(MeshLattice, TurnsAnInvertedHandle) {
     const MeshLattice made = lattice(test::together(pot, test::inside_out(handle)), 0.05);
     EXPECT_NEAR(made.report.cells.volume, 1.1, 1e-9);
     EXPECT_NEAR(made.report.mesh.volume, 1.1, 1e-9);
-    EXPECT_THAT(all_notes(made), HasSubstr("1 of its parts were inside out"));
+    EXPECT_THAT(all_notes(made), HasSubstr("1 of its parts was inside out"));
   }
 }
 
@@ -278,7 +278,7 @@ TEST(MeshLattice, OrientsShellsThatTouch) {
     const MeshLattice two = lattice(test::together(box, other), 0.1);
     EXPECT_NEAR(two.report.mesh.volume, 2.0, 1e-9);
     EXPECT_NEAR(two.report.cells.volume, 2.0, 1e-9);
-    EXPECT_THAT(all_notes(two), HasSubstr("1 of its parts were inside out"));
+    EXPECT_THAT(all_notes(two), HasSubstr("1 of its parts was inside out"));
   }
 }
 
@@ -330,6 +330,37 @@ TEST(MeshLattice, RefusesTooManyCellsAndNamesASpacing) {
   EXPECT_THAT(refusal(ball, options), HasSubstr("more than 1000; give a spacing of 0.1"));
   options.spacing = 0.17;
   EXPECT_EQ(refusal(ball, options), "made");
+}
+
+// Where the diagonals of a box's sides are too long, its 12 triangles become 24.
+TEST(MeshLattice, SaysWhenItsSkinStaysCoarse) {
+  MeshLatticeOptions options;
+  options.spacing = 0.8;
+  options.most_skin_triangles = 23;
+  const TriangleMesh box = test::box_mesh({0, 0, 0}, {0.8, 0.8, 0.8});
+  const MeshLattice coarse = mesh_lattice(box, options);
+  EXPECT_EQ(coarse.skin.triangles.size(), 12u);
+  EXPECT_THAT(all_notes(coarse),
+              HasSubstr("its skin would take more than 23 triangles to have no edge longer than a "
+                        "cell of 0.8 m; the longest is 1.13 m"));
+  options.most_skin_triangles = 24;
+  EXPECT_EQ(all_notes(mesh_lattice(box, options)), "");
+}
+
+TEST(SampledMoments, RefuseAGridThatIsTooLarge) {
+  const TriangleMesh ball = test::icosphere(1, 2);
+  const auto refusal_of = [&](const TriangleMesh& mesh, double spacing) -> std::string {
+    try {
+      sampled_moments(mesh, spacing);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "made";
+  };
+  EXPECT_THAT(refusal_of(ball, 1e-4),
+              HasSubstr("its box takes 8e+12 cells of 0.0001 m, more than"));
+  EXPECT_THAT(refusal_of(ball, -1.0), HasSubstr("give a positive spacing"));
+  EXPECT_THAT(refusal_of(TriangleMesh{"none", {}, {}}, 0.1), HasSubstr("has no triangles"));
 }
 
 // A cell is either kept or its neighbours carry what was in it.
