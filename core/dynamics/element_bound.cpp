@@ -6,30 +6,11 @@
 #include <vector>
 
 #include "core/analysis/tangent_stiffness.h"
+#include "core/dynamics/element_shares.h"
 #include "core/model/rounded_cache.h"
 
 namespace limber {
 namespace {
-
-bool carries(const EdgeAttributes& edge) { return !edge.broken && edge.stiffness > 0.0; }
-
-std::vector<std::int32_t> cells_per_edge(const GeometricModel& geometry) {
-  std::vector<std::int32_t> count(geometry.edges.size(), 0);
-  for (const Cell& cell : geometry.cells)
-    for (EdgeId e : cell.edges) ++count[e.index()];
-  return count;
-}
-
-IdVector<PointId, double> stiffness_around(const PhysicalModel& model) {
-  IdVector<PointId, double> sum(model.points.size(), 0.0);
-  for (std::size_t i = 0; i < model.edges.size(); ++i) {
-    const EdgeAttributes& edge = model.edges[EdgeId(i)];
-    if (!carries(edge)) continue;
-    sum[model.geometry.edges[EdgeId(i)].a] += edge.stiffness;
-    sum[model.geometry.edges[EdgeId(i)].b] += edge.stiffness;
-  }
-  return sum;
-}
 
 // One element, its points numbered from 0 in ascending order.
 struct Element {
@@ -51,8 +32,7 @@ double largest_eigenvalue(const Element& element) {
     const double scale_a = 1.0 / std::sqrt(element.mass[s.a]);
     const double scale_b = 1.0 / std::sqrt(element.mass[s.b]);
     const Mat3 along = s.direction * s.direction.transpose();
-    const Mat3 k =
-        s.stiffness * (s.sideways * Mat3::Identity() + (1.0 - s.sideways) * along);
+    const Mat3 k = s.stiffness * (s.sideways * Mat3::Identity() + (1.0 - s.sideways) * along);
     scaled.block<3, 3>(3 * s.a, 3 * s.a) += scale_a * scale_a * k;
     scaled.block<3, 3>(3 * s.b, 3 * s.b) += scale_b * scale_b * k;
     scaled.block<3, 3>(3 * s.a, 3 * s.b) -= scale_a * scale_b * k;

@@ -1,34 +1,20 @@
 #include "core/dynamics/stable_step.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "core/analysis/extreme_eigenvalues.h"
 #include "core/analysis/tangent_stiffness.h"
+#include "core/dynamics/block_bound.h"
 #include "core/dynamics/element_bound.h"
+#include "core/dynamics/proved_frequency.h"
 #include "core/model/errors.h"
 
 namespace limber {
 namespace {
 
-// The proof looks this much above the estimate: at the eigenvalue itself the matrix is singular.
-constexpr double kProofMargin = 1.005;
-
-// Of the estimate's eigenvalue; half of that in the frequency, well within the margin. Finer would
-// cost seconds on a rope of thousands of points, and be lost in the margin.
-constexpr double kEstimateError = 1e-4;
-
 // 1/s^2: sums of a thousand of these are still finite.
 constexpr double kLargestSquare = 1e300;
-
-// Knows after its analysis how large the factor will be.
-class SizedCholesky : public Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower> {
- public:
-  std::size_t entries() const { return static_cast<std::size_t>(m_matrix.nonZeros()); }
-};
 
 // Entries of the matrix's lower triangle: the factor has at least these, in whatever order. Known
 // before the matrix, which takes a minute to assemble and analyse for a million points.
@@ -43,23 +29,8 @@ std::size_t least_factor_entries(const PhysicalModel& model) {
   return entries;
 }
 
-// The smallest of omega, 1.03 omega, ... for which omega^2 - M^-1/2 K M^-1/2 has a Cholesky
-// factorisation, which proves that no frequency lies above it. The third or fourth does, if the
-// estimate is good; none after many.
-std::optional<double> proved_above_spectrum(SizedCholesky& cholesky, const SparseMatrix& stiffness,
-                                            double omega) {
-  constexpr int kMostTries = 64;
-  SparseMatrix identity(stiffness.rows(), stiffness.cols());
-  identity.setIdentity();
-  for (int i = 0; i < kMostTries; ++i, omega *= 1.03) {
-    // Relative to omega^2, so that pivots are near one whatever the units.
-    cholesky.factorize(identity - stiffness / (omega * omega));
-    if (cholesky.info() == Eigen::Success) return omega;
-  }
-  return std::nullopt;
-}
-
 FrequencyBound bound_by_elements(const PhysicalModel& model) {
+  if (const auto by_blocks = block_frequency_bound(model)) return {*by_blocks, false};
   return {element_frequency_bound(model), false};
 }
 
@@ -87,13 +58,7 @@ FrequencyBound highest_frequency(const PhysicalModel& model, std::size_t most_en
   if (!has_springs(model)) return {0.0, true};
   require_finite_frequencies(model);
   if (least_factor_entries(model) > most_entries) return bound_by_elements(model);
-  const SparseMatrix stiffness = scaled_stiffness_bound(model);
-  SizedCholesky cholesky;
-  cholesky.analyzePattern(stiffness);
-  if (cholesky.entries() > most_entries) return bound_by_elements(model);
-  const double estimate = std::sqrt(std::max(0.0, largest_eigenvalue(stiffness, kEstimateError)));
-  if (estimate == 0.0) return {0.0, true};  // pins hold both ends of every spring
-  const auto proved = proved_above_spectrum(cholesky, stiffness, kProofMargin * estimate);
+  const auto proved = proved_frequency(scaled_stiffness_bound(model), most_entries);
   return proved ? FrequencyBound{*proved, true} : bound_by_elements(model);
 }
 

@@ -10,7 +10,9 @@ namespace limber {
 // rest lengths where it is compressed or collapsed, rad/s.
 struct FrequencyBound {
   double omega_max = 0.0;  // never below the true value
-  bool verified = false;   // and 0.5 % above it; else the bound by elements, 20 to 65 %
+  // And 0.5 % above it as a rule. Else the bound by blocks of a grid, 1 %, or by elements, 20 to 65
+  // %.
+  bool verified = false;
 };
 
 // K v = omega^2 M v over all unbroken edges. Lanczos's method finds an estimate omega, a sparse
@@ -18,7 +20,7 @@ struct FrequencyBound {
 // exactly then). Factors of more than `most_entries` are not computed: a shell of 3400 points fills
 // 0.9 million (0.2 s), a solid block of 1700 points 1.6 million (0.3 s), one of 2700 points 3.1
 // million (0.9 s), and the time grows with the square; larger models get the bound of
-// element_bound.h.
+// block_bound.h or element_bound.h.
 FrequencyBound highest_frequency(const PhysicalModel& model, std::size_t most_entries = 3500000);
 
 // Largest stable step of semi-implicit Euler with damping from the old velocities, s:
