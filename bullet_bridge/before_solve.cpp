@@ -293,12 +293,13 @@ int CoSimulation::Impl::substeps_for(double dt) {
   return std::max(1, static_cast<int>(wanted));
 }
 
-// All whose springs alone would need too many substeps.
+// All that would need too many substeps.
 void CoSimulation::Impl::make_stiffest_implicit(double dt) {
   for (std::size_t o = 0; o < lattice_.objects.size(); ++o) {
     const LatticeObject& object = lattice_.objects[o];
     const double wanted = std::ceil(dt / (object.largest_step * settings_.step_scale));
     if (time_operator_.is_implicit(o) || !(wanted > settings_.most_substeps)) continue;
+    if (object.spring_frequency == 0.0 && object.spring_damping == 0.0) continue;  // grains
     time_operator_.make_implicit(o);
     notes_.push_back({object.authored.name,
                       "a tick would need " + std::to_string(std::llround(std::min(wanted, 1e15))) +

@@ -99,7 +99,7 @@ class Blocks {
 // Blocks along an axis are as equal as can be.
 int block_along(int cell, int cells) {
   const int blocks = std::max(1, (cells + kCellsAlongBlock / 2) / kCellsAlongBlock);
-  return cells > 0 ? cell * blocks / cells : 0;
+  return cells > 0 ? static_cast<int>(std::int64_t{cell} * blocks / cells) : 0;
 }
 
 // The block of a cell's lowest corner; none for a cell that is not within one grid.
@@ -195,6 +195,7 @@ void Blocks::set_key() {
     const Vec3 d =
         (block_.geometry.points[b] - block_.geometry.points[a]) / block_.edges[e].rest_length;
     for (int axis = 0; axis < 3; ++axis) key_.add(rounded(d[axis]));
+    key_.add(std::int64_t{d.norm() < 0.5});  // sideways_stiffness_bound() jumps there
   }
 }
 

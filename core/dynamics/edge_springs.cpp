@@ -39,11 +39,13 @@ void EdgeSprings::rebuild(const Lattice& lattice, const std::vector<std::int32_t
 void EdgeSprings::find_frames(const Lattice& lattice, const std::vector<std::int32_t>& active) {
   struct Extremes {
     double shortest = kUnbreakable, longest = 0.0, stiffness = 0.0, damping = 0.0;
+    std::int32_t point = -1;
   };
   std::vector<Extremes> extremes(lattice.objects.size());
   for (std::int32_t i : active) {
     const Spring& s = lattice.active[i];
     Extremes& e = extremes[lattice.point_object[s.a]];
+    e.point = s.a;
     e.shortest = std::min(e.shortest, s.rest_length);
     e.longest = std::max(e.longest, s.rest_length);
     e.stiffness = std::max(e.stiffness, s.stiffness);
@@ -55,6 +57,7 @@ void EdgeSprings::find_frames(const Lattice& lattice, const std::vector<std::int
     frames_[o].holds =
         fits_single_precision(e.shortest, e.longest, e.stiffness, e.damping, kMostSpread);
     if (frames_[o].holds) frames_[o].quanta = Quanta(e.shortest, e.longest);
+    frames_[o].origin_point = e.point;
   }
 }
 
@@ -117,7 +120,7 @@ EdgeColumns EdgeSprings::columns() const {
 
 void EdgeSprings::read_motion(const Lattice& lattice) {
   for (std::size_t o = 0; o < frames_.size(); ++o) {
-    frames_[o].origin = lattice.motion[lattice.objects[o].points.begin];
+    if (frames_[o].origin_point >= 0) frames_[o].origin = lattice.motion[frames_[o].origin_point];
   }
   fastest_.assign(points_.size() / kPointsPerRange + 1, 0.0);
   parallel_for(points_.size(), kPointsPerRange, [&](std::size_t from, std::size_t to) {

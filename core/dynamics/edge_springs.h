@@ -36,7 +36,8 @@ class EdgeSprings {
   // Of one object's springs.
   struct Frame {
     Quanta quanta;
-    bool holds = false;  // in single precision
+    bool holds = false;              // in single precision
+    std::int32_t origin_point = -1;  // an end of one of its springs
     PointMotion origin;
   };
 

@@ -199,6 +199,20 @@ void append_active(Lattice& lattice, bool breakable) {
   }
 }
 
+// K <= K_springs + n omega_c^2 + k / m (Weyl; Gershgorin for n contacts of points of one mass, each
+// omega_c^2 m / 2), C <= beta K_springs + c / m.
+double step_with_springs(const LatticeObject& object, double spring_frequency,
+                         double spring_damping, double stiffness, double damping) {
+  const double omega =
+      std::sqrt(spring_frequency * spring_frequency +
+                object.contacts_at_once * object.contact_frequency * object.contact_frequency +
+                stiffness / object.least_mass);
+  const double rate = spring_damping + damping / object.least_mass;
+  // Dampers alone: v' = (1 - C dt) v is stable to C dt = 2.
+  if (omega == 0.0) return rate > 0.0 ? kStepSafety * 2.0 / rate : stable_step(0.0, 0.0);
+  return kStepSafety * stable_step(omega, rate / (2.0 * omega));
+}
+
 template <class IdType>
 IdRange<IdType> next_range(std::size_t first, std::size_t count) {
   return {static_cast<std::int32_t>(first), static_cast<std::int32_t>(first + count)};
@@ -250,17 +264,13 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   return lattice.objects.size() - 1;
 }
 
-// K <= K_springs + n omega_c^2 + k / m (Weyl; Gershgorin for n contacts of points of one mass, each
-// omega_c^2 m / 2), C <= beta K_springs + c / m.
 double largest_step(const LatticeObject& object, double stiffness, double damping) {
-  const double omega =
-      std::sqrt(object.spring_frequency * object.spring_frequency +
-                object.contacts_at_once * object.contact_frequency * object.contact_frequency +
-                stiffness / object.least_mass);
-  const double rate = object.spring_damping + damping / object.least_mass;
-  // Dampers alone: v' = (1 - C dt) v is stable to C dt = 2.
-  if (omega == 0.0) return rate > 0.0 ? kStepSafety * 2.0 / rate : stable_step(0.0, 0.0);
-  return kStepSafety * stable_step(omega, rate / (2.0 * omega));
+  return step_with_springs(object, object.spring_frequency, object.spring_damping, stiffness,
+                           damping);
+}
+
+double largest_contact_step(const LatticeObject& object, double stiffness, double damping) {
+  return step_with_springs(object, 0.0, 0.0, stiffness, damping);
 }
 
 void rebuild_active(Lattice& lattice) {

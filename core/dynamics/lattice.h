@@ -97,6 +97,10 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model);
 // spring (N/m) and a damper (N s/m), such as a penalty ground.
 double largest_step(const LatticeObject& object, double stiffness = 0.0, double damping = 0.0);
 
+// The same as if it had no springs: what contacts allow.
+double largest_contact_step(const LatticeObject& object, double stiffness = 0.0,
+                            double damping = 0.0);
+
 // Refreshes `active`, `dynamic_points` and `carried_points` after breaks and changes of role.
 void rebuild_active(Lattice& lattice);
 

@@ -62,7 +62,8 @@ void SpringForces::find_grids() {
 void SpringForces::take_edges() {
   std::vector<std::int32_t> active;
   for (std::size_t i = 0; i < lattice_.active.size(); ++i) {
-    if (is_on_grid(lattice_.active_edge[i])) continue;
+    const std::int32_t edge = lattice_.active_edge[i];
+    if (is_on_grid(edge) || lattice_.breaking.edge_broken[edge]) continue;
     if (is_in_double(lattice_.point_object[lattice_.active[i].a])) continue;
     active.push_back(static_cast<std::int32_t>(i));
   }
@@ -116,7 +117,7 @@ void SpringForces::add(double dt) {
 // Runs body(from, to, list) in parallel and gathers what it puts into the lists.
 template <class Body>
 void SpringForces::collect(std::size_t count, std::size_t grain, const Body& body) {
-  overstretched_in_.resize(count / grain + 1);
+  overstretched_in_.assign(count / grain + 1, {});
   parallel_for(count, grain, [&](std::size_t from, std::size_t to) {
     body(from, to, overstretched_in_[from / grain]);
   });

@@ -94,10 +94,12 @@ void StencilSprings::remove(std::size_t spring) {
 }
 
 void StencilSprings::rebuild(const Lattice& lattice) {
+  origin_point_ = -1;
   for (auto& array : classes_) std::fill(array.begin(), array.end(), 0);
   std::vector<bool> busy((point_.size() + kStencilBlock - 1) / kStencilBlock, false);
   for (const Spring& s : springs_) {
-    if (lattice.active_of_edge[s.edge] < 0) continue;
+    if (lattice.active_of_edge[s.edge] < 0 || lattice.breaking.edge_broken[s.edge]) continue;
+    if (origin_point_ < 0) origin_point_ = point_[s.cell];
     const std::int32_t other = other_cell(s);
     set_class(s.cell, s.half, s.number);
     set_class(other, s.half ^ 1, s.number);
@@ -111,10 +113,7 @@ void StencilSprings::rebuild(const Lattice& lattice) {
 }
 
 void StencilSprings::choose_origin(const Lattice& lattice) {
-  if (blocks_.empty()) return;
-  const std::int32_t* point = point_.data() + (blocks_.front() - guard_);
-  while (*point < 0) ++point;  // there is one: the block has springs
-  origin_ = lattice.motion[*point];
+  if (origin_point_ >= 0) origin_ = lattice.motion[origin_point_];
 }
 
 double StencilSprings::read_motion(const Lattice& lattice, std::size_t from, std::size_t to) {
@@ -125,7 +124,7 @@ double StencilSprings::read_motion(const Lattice& lattice, std::size_t from, std
         std::min(first + kStencilBlock, guard_ + static_cast<std::int32_t>(point_.size()));
     for (std::int32_t cell = first; cell < last; ++cell) {
       const std::int32_t p = point_[cell - guard_];
-      if (p < 0) continue;
+      if (p < 0 || lattice.role[p] != PointRole::kDynamic) continue;
       const PointMotion& motion = lattice.motion[p];
       for (int axis = 0; axis < 3; ++axis) {
         position_[axis][cell] = quanta_.count(motion.position[axis] - origin_.position[axis]);
@@ -145,10 +144,17 @@ void StencilSprings::require_measurable(const Lattice& lattice) const {
   }
 }
 
+// They are in the order of their edges.
+bool StencilSprings::has(std::int32_t edge) const {
+  const auto found = std::lower_bound(springs_.begin(), springs_.end(), edge,
+                                      [](const Spring& s, std::int32_t e) { return s.edge < e; });
+  return found != springs_.end() && found->edge == edge;
+}
+
 void StencilSprings::look_at(const Lattice& lattice, std::int32_t point,
                              std::vector<std::int32_t>& overstretched_edges) const {
   for (std::int32_t e : lattice.point_edges[point]) {
-    if (lattice.active_of_edge[e] < 0 || lattice.breaking.edge_broken[e]) continue;
+    if (!has(e) || lattice.active_of_edge[e] < 0 || lattice.breaking.edge_broken[e]) continue;
     if (is_overstretched(lattice, e)) {
       overstretched_edges.push_back(e);
     } else {

@@ -61,6 +61,7 @@ class StencilSprings {
   void set_class(std::int32_t cell, int half, std::uint32_t number);
   std::int32_t other_cell(const Spring& spring) const;
   StencilView view();
+  bool has(std::int32_t edge) const;
   void look_at(const Lattice& lattice, std::int32_t point,
                std::vector<std::int32_t>& overstretched_edges) const;
 
@@ -79,6 +80,7 @@ class StencilSprings {
 
   std::vector<std::int32_t> blocks_;          // first cell of each
   std::vector<std::uint16_t> overstretched_;  // shape (blocks)
+  std::int32_t origin_point_ = -1;            // an end of an active spring
   PointMotion origin_;
 };
 

@@ -1,5 +1,5 @@
-// The damped spring of spring_force.h on vectors, in single precision. Highway's way of sharing code
-// between files that are compiled once per instruction set: no ordinary include guard.
+// The damped spring of spring_force.h on vectors, in single precision. Highway's way of sharing
+// code between files that are compiled once per instruction set: no ordinary include guard.
 #if defined(LIMBER_VECTOR_SPRING_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LIMBER_VECTOR_SPRING_INL_H
 #undef LIMBER_VECTOR_SPRING_INL_H
@@ -49,7 +49,7 @@ HWY_INLINE VF inverse_root(VF square) {
 // d = x_b - x_a, quanta; w = v_b - v_a, m/s. With e = d^2 - L0^2 and u = 1 / |d|,
 //   T / L = k (L - L0) / L + c (d . w) / L^2 = (k e / (1 + L0 u) + c d . w) u^2:
 // the small difference of two lengths does not occur, so that u need not be exact. The wrong share
-// it leaves, up to 2e-4, depends on |d| alone: the force still has a potential.
+// it leaves, up to 2e-4 (4e-4 without AVX-512), depends on |d| alone: the force still has a potential.
 HWY_INLINE VectorPull vector_pull(const VectorSpring& spring, VF dx, VF dy, VF dz, VF wx, VF wy,
                                   VF wz) {
   const Floats f;

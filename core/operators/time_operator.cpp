@@ -26,12 +26,6 @@ void for_points(std::span<const std::int32_t> points, const Body& body) {
   });
 }
 
-// As if the object had no springs.
-double largest_contact_step(LatticeObject object, double stiffness, double damping) {
-  object.spring_frequency = object.spring_damping = 0.0;
-  return limber::largest_step(object, stiffness, damping);
-}
-
 }  // namespace
 
 double TimeOperator::largest_step(const Environment& environment) const {

@@ -79,8 +79,8 @@ class TimeOperator {
 
   // Integrates this object, an index of lattice.objects, by implicit Euler, and sums its springs in
   // double precision: the method has springs of its own, and what two precisions differ by would
-  // push a stiff body from outside. Throws InputError beside
-  // a method other than the two Eulers' default, kSymplecticEuler.
+  // push a stiff body from outside. Throws InputError in
+  // an operator of another method than symplectic or implicit Euler.
   void make_implicit(std::size_t object);
   bool is_implicit(std::size_t object) const;
 

@@ -22,8 +22,8 @@ void set_threads(int count) {
     throw InputError(
         {"threads", "the number of threads is " + std::to_string(count), "give 1 or more"});
   }
-  thread_count = count;
   arena = count > 1 ? std::make_unique<tbb::task_arena>(count) : nullptr;
+  thread_count = count;
 }
 
 int threads() { return thread_count; }

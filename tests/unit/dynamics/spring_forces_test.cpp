@@ -257,5 +257,45 @@ TEST_P(Precisions, PointsWithoutEdgesFeelNothing) {
   EXPECT_THAT(test::added_by(springs, lattice).force, Each(Vec3::Zero()));
 }
 
+// A strut as long as 40 cells is longer than the grid's own units can measure.
+TEST(SpringForces, FlagsOfAGridDoNotConcernOtherSpringsOfItsPoints) {
+  GeometricModel geometry = box({5, 5, 5}).geometry;
+  const PointId far = geometry.points.push_back({40.0 * kSpacing, 0.0, 0.0});
+  const EdgeId strut = geometry.edges.push_back({PointId(std::size_t{0}), far});
+  geometry.subobjects[0].points.end += 1;
+  geometry.subobjects[0].edges.end += 1;
+  PhysicalModel model = test::with_plausible_attributes(std::move(geometry), "box");
+  for (EdgeAttributes& edge : model.edges) edge.break_threshold = 0.02 * kSpacing;
+  model.edges[strut].break_threshold = kUnbreakable;
+  Lattice lattice = test::lattice_of({model});
+  lattice.motion[0].position -= Vec3(0.0, 0.1 * kSpacing, 0.0);
+  SpringForces springs(lattice, SpringPrecision::kSingle);
+  const test::SpringSums single = test::added_by(springs, lattice);
+  const test::SpringSums reference = test::in_double(lattice);
+  EXPECT_GT(single.paths.grids, 0u);
+  EXPECT_FALSE(reference.overstretched.empty());
+  EXPECT_EQ(single.overstretched, reference.overstretched);
+}
+
+// make_implicit() has the paths built anew without rebuild_active().
+TEST(SpringForces, BrokenSpringsStayBrokenWhenAnotherObjectChangesItsPath) {
+  Lattice lattice = disturbed({box({5, 5, 5}), ball({1.0, 0.0, 0.0})}, 5);
+  SpringForces springs(lattice, SpringPrecision::kSingle);
+  test::added_by(springs, lattice);
+  std::vector<std::int32_t> broken;
+  for (std::int32_t e = 0; e < static_cast<std::int32_t>(lattice.springs.size()); e += 7) {
+    broken.push_back(e);
+    lattice.breaking.edge_broken[e] = true;
+  }
+  slacken(lattice, broken);
+  springs.remove(broken);
+  const test::SpringSums before = test::added_by(springs, lattice);
+  springs.keep_in_double(1);
+  const test::SpringSums after = test::added_by(springs, lattice);
+  for (std::size_t p = 0; p < before.force.size(); ++p) {
+    EXPECT_LT((after.force[p] - before.force[p]).norm(), 0.05) << "point " << p;
+  }
+}
+
 }  // namespace
 }  // namespace limber
