@@ -18,6 +18,15 @@ constexpr double kMostSpread = 256.0;
 constexpr std::size_t kBatchesPerRange = 128;
 constexpr std::size_t kPointsPerRange = 1024;
 
+// Not the first point: that may be debris, which flies away. Not that of the first spring, which
+// may break: what stays would be rounded differently then. -1: none
+std::int32_t first_dynamic_point(const Lattice& lattice, const LatticeObject& object) {
+  for (std::int32_t p = object.points.begin; p < object.points.end; ++p) {
+    if (lattice.role[p] == PointRole::kDynamic) return p;
+  }
+  return -1;
+}
+
 }  // namespace
 
 void EdgeSprings::rebuild(const Lattice& lattice, const std::vector<std::int32_t>& active) {
@@ -39,13 +48,11 @@ void EdgeSprings::rebuild(const Lattice& lattice, const std::vector<std::int32_t
 void EdgeSprings::find_frames(const Lattice& lattice, const std::vector<std::int32_t>& active) {
   struct Extremes {
     double shortest = kUnbreakable, longest = 0.0, stiffness = 0.0, damping = 0.0;
-    std::int32_t point = -1;
   };
   std::vector<Extremes> extremes(lattice.objects.size());
   for (std::int32_t i : active) {
     const Spring& s = lattice.active[i];
     Extremes& e = extremes[lattice.point_object[s.a]];
-    e.point = s.a;
     e.shortest = std::min(e.shortest, s.rest_length);
     e.longest = std::max(e.longest, s.rest_length);
     e.stiffness = std::max(e.stiffness, s.stiffness);
@@ -57,7 +64,7 @@ void EdgeSprings::find_frames(const Lattice& lattice, const std::vector<std::int
     frames_[o].holds =
         fits_single_precision(e.shortest, e.longest, e.stiffness, e.damping, kMostSpread);
     if (frames_[o].holds) frames_[o].quanta = Quanta(e.shortest, e.longest);
-    frames_[o].origin_point = e.point;
+    frames_[o].origin_point = first_dynamic_point(lattice, lattice.objects[o]);
   }
 }
 

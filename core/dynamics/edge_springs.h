@@ -37,7 +37,7 @@ class EdgeSprings {
   struct Frame {
     Quanta quanta;
     bool holds = false;              // in single precision
-    std::int32_t origin_point = -1;  // an end of one of its springs
+    std::int32_t origin_point = -1;  // a dynamic one
     PointMotion origin;
   };
 
