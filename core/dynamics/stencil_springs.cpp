@@ -94,12 +94,16 @@ void StencilSprings::remove(std::size_t spring) {
 }
 
 void StencilSprings::rebuild(const Lattice& lattice) {
-  origin_point_ = -1;
+  // Neither debris, which flies away, nor of a spring, which may break: rounding would change then.
+  const auto dynamic = [&](std::int32_t p) {
+    return p >= 0 && lattice.role[p] == PointRole::kDynamic;
+  };
+  const auto first = std::find_if(point_.begin(), point_.end(), dynamic);
+  origin_point_ = first == point_.end() ? -1 : *first;
   for (auto& array : classes_) std::fill(array.begin(), array.end(), 0);
   std::vector<bool> busy((point_.size() + kStencilBlock - 1) / kStencilBlock, false);
   for (const Spring& s : springs_) {
     if (lattice.active_of_edge[s.edge] < 0 || lattice.breaking.edge_broken[s.edge]) continue;
-    if (origin_point_ < 0) origin_point_ = point_[s.cell];
     const std::int32_t other = other_cell(s);
     set_class(s.cell, s.half, s.number);
     set_class(other, s.half ^ 1, s.number);
