@@ -120,24 +120,30 @@ void StencilSprings::choose_origin(const Lattice& lattice) {
   if (origin_point_ >= 0) origin_ = lattice.motion[origin_point_];
 }
 
-double StencilSprings::read_motion(const Lattice& lattice, std::size_t from, std::size_t to) {
-  double fastest = 0.0;  // m/s
+// body(block, cell, point) for every point in these blocks.
+template <class Body>
+void StencilSprings::for_each_point(std::size_t from, std::size_t to, const Body& body) const {
+  const std::int32_t end = guard_ + static_cast<std::int32_t>(point_.size());
   for (std::size_t b = from; b < to; ++b) {
-    const std::int32_t first = blocks_[b];
-    const std::int32_t last =
-        std::min(first + kStencilBlock, guard_ + static_cast<std::int32_t>(point_.size()));
-    for (std::int32_t cell = first; cell < last; ++cell) {
-      const std::int32_t p = point_[cell - guard_];
-      if (p < 0 || lattice.role[p] != PointRole::kDynamic) continue;
-      const PointMotion& motion = lattice.motion[p];
-      for (int axis = 0; axis < 3; ++axis) {
-        position_[axis][cell] = quanta_.count(motion.position[axis] - origin_.position[axis]);
-        const double velocity = motion.velocity[axis] - origin_.velocity[axis];
-        velocity_[axis][cell] = static_cast<float>(velocity);
-        fastest = std::max(fastest, std::abs(velocity));
-      }
+    const std::int32_t last = std::min(blocks_[b] + kStencilBlock, end);
+    for (std::int32_t cell = blocks_[b]; cell < last; ++cell) {
+      if (point_[cell - guard_] >= 0) body(b, cell, point_[cell - guard_]);
     }
   }
+}
+
+double StencilSprings::read_motion(const Lattice& lattice, std::size_t from, std::size_t to) {
+  double fastest = 0.0;  // m/s
+  for_each_point(from, to, [&](std::size_t, std::int32_t cell, std::int32_t p) {
+    if (lattice.role[p] != PointRole::kDynamic) return;
+    const PointMotion& motion = lattice.motion[p];
+    for (int axis = 0; axis < 3; ++axis) {
+      position_[axis][cell] = quanta_.count(motion.position[axis] - origin_.position[axis]);
+      const double velocity = motion.velocity[axis] - origin_.velocity[axis];
+      velocity_[axis][cell] = static_cast<float>(velocity);
+      fastest = std::max(fastest, std::abs(velocity));
+    }
+  });
   return quanta_.speed(fastest);
 }
 
@@ -185,17 +191,11 @@ void StencilSprings::add_forces(Lattice& lattice, std::size_t from, std::size_t 
                                 std::vector<std::int32_t>& overstretched_edges) {
   sum_stencil_forces(view(), std::span(blocks_).subspan(from, to - from),
                      std::span(overstretched_).subspan(from, to - from));
-  for (std::size_t b = from; b < to; ++b) {
-    const std::int32_t first = blocks_[b];
-    const std::int32_t last =
-        std::min(first + kStencilBlock, guard_ + static_cast<std::int32_t>(point_.size()));
-    for (std::int32_t cell = first; cell < last; ++cell) {
-      const std::int32_t p = point_[cell - guard_];
-      if (p < 0) continue;
-      lattice.force[p] += Vec3(force_[0][cell], force_[1][cell], force_[2][cell]);
-      if (overstretched_[b] >> (cell - first) & 1) look_at(lattice, p, overstretched_edges);
-    }
-  }
+  for_each_point(from, to, [&](std::size_t block, std::int32_t cell, std::int32_t p) {
+    lattice.force[p] += Vec3(force_[0][cell], force_[1][cell], force_[2][cell]);
+    const bool flagged = overstretched_[block] >> (cell - blocks_[block]) & 1;
+    if (flagged) look_at(lattice, p, overstretched_edges);
+  });
 }
 
 }  // namespace limber

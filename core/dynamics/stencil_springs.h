@@ -61,6 +61,8 @@ class StencilSprings {
   void set_class(std::int32_t cell, int half, std::uint32_t number);
   std::int32_t other_cell(const Spring& spring) const;
   StencilView view();
+  template <class Body>
+  void for_each_point(std::size_t from, std::size_t to, const Body& body) const;
   bool has(std::int32_t edge) const;
   void look_at(const Lattice& lattice, std::int32_t point,
                std::vector<std::int32_t>& overstretched_edges) const;

@@ -12,25 +12,15 @@
 #include "demos/cli/model_report.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/unit_demos/said.h"
 
 namespace limber::demos {
 namespace {
 
+using test::limber;
+using test::Said;
 using test::TemporaryFolder;
 using testing::HasSubstr;
-
-struct Said {
-  int code;
-  std::string out, err;
-};
-
-Said limber(const std::vector<std::string>& arguments) {
-  std::vector<const char*> argv = {"limber"};
-  for (const std::string& a : arguments) argv.push_back(a.c_str());
-  std::ostringstream out, err;
-  const int code = cli_main(static_cast<int>(argv.size()), argv.data(), out, err);
-  return {code, out.str(), err.str()};
-}
 
 // A box of 0.4 x 0.2 x 0.2 in the unit of the file.
 class ModelCommand : public testing::Test {

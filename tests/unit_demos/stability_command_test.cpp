@@ -9,28 +9,17 @@
 #include "demos/cli/stability_plots.h"
 #include "demos/cli/stability_report.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/unit_demos/said.h"
 
 namespace limber::demos {
 namespace {
 
 using test::contents;
+using test::limber;
+using test::Said;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-struct Said {
-  int code;
-  std::string out, err;
-};
-
-Said limber(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "limber");
-  std::vector<const char*> argv;
-  for (const std::string& a : arguments) argv.push_back(a.c_str());
-  std::ostringstream out, err;
-  const int code = cli_main(static_cast<int>(argv.size()), argv.data(), out, err);
-  return {code, out.str(), err.str()};
-}
 
 void expect_refused(const std::vector<std::string>& arguments) {
   SCOPED_TRACE(testing::PrintToString(arguments));

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "core/modeller/sheet.h"
 #include "core/operators/time_operator.h"
 #include "tests/support/blocks.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/lattices.h"
 #include "tests/support/spring_sums.h"
 
@@ -27,23 +27,12 @@
 namespace limber {
 namespace {
 
+using test::kReciprocalError;
+using test::on_every_target;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
 constexpr double kSize = 0.3;  // m, of all models here
-// What reciprocals are sure to: see stencil_kernel_test.cpp.
-constexpr double kReciprocalError = 1.5 / 4096.0;
-
-void on_every_target(const std::function<void()>& test) {
-  for (std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    if (target == HWY_SCALAR) continue;  // the kernels ask for SSSE3 at least
-    hwy::SetSupportedTargetsForTest(target);
-    SCOPED_TRACE(vector_instructions());
-    EXPECT_STREQ(vector_instructions(), hwy::TargetName(target));
-    test();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-}
 
 // ---- models on no grid
 

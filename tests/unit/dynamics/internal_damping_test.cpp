@@ -138,11 +138,16 @@ TEST(InternalDamping, WherePositionsLeadIsThatOfWhereTheyWere) {
 
 // An undamped chain at its largest step, its vibration taken out every 32 steps. What energy swings
 // by over a period, at most 1 / (1 - 0.92), is all that there may be more than at the start.
-double energy_of_a_chain(bool leads) {
+Lattice shaken_chain() {
   PhysicalModel model = test::chain({.points = 12, .stiffness = 1e4});
   model.object.internal_damping = 1e6;
   Lattice lattice = test::lattice_of({model});
   test::shake(lattice, 5, 1e-3);
+  return lattice;
+}
+
+double energy_of_a_chain(bool leads) {
+  Lattice lattice = shaken_chain();
   const double before = test::totals(lattice).energy();
   TimeOperator time(lattice);
   const double dt = time.largest_step();
@@ -162,10 +167,7 @@ TEST(InternalDamping, FeedsSymplecticEulerUnlessItKnowsTheLead) {
 }
 
 TEST(InternalDamping, OfTheTimeOperatorKnowsTheLead) {
-  PhysicalModel model = test::chain({.points = 12, .stiffness = 1e4});
-  model.object.internal_damping = 1e6;
-  Lattice lattice = test::lattice_of({model});
-  test::shake(lattice, 5, 1e-3);
+  Lattice lattice = shaken_chain();
   const double before = test::totals(lattice).energy();
   TimeOperator time(lattice);
   time.advance(100 * kDampingInterval, time.largest_step(), kEmptySpace);

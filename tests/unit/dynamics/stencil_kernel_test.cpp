@@ -15,6 +15,7 @@
 #include "core/modeller/box_lattice.h"
 #include "core/operators/time_operator.h"
 #include "tests/support/blocks.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/lattices.h"
 #include "tests/support/spring_sums.h"
 
@@ -24,25 +25,13 @@
 namespace limber {
 namespace {
 
+using test::kReciprocalError;
+using test::on_every_target;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::UnorderedElementsAreArray;
 
 constexpr double kSpacing = 0.013;  // m
-// What reciprocals are sure to: 1.5 x 2^-12 (RCPPS in Intel's manual, volume 2); AVX-512's two of
-// 2^-14 each, one of them squared, are together no worse.
-constexpr double kReciprocalError = 1.5 / 4096.0;
-
-void on_every_target(const std::function<void()>& test) {
-  for (std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    if (target == HWY_SCALAR) continue;  // the kernels ask for SSSE3 at least
-    hwy::SetSupportedTargetsForTest(target);
-    SCOPED_TRACE(vector_instructions());
-    EXPECT_STREQ(vector_instructions(), hwy::TargetName(target));
-    test();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-}
 
 TEST(StencilKernel, RunsOnEveryInstructionSetOfTheMachine) {
   int run = 0;
