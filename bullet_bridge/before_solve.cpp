@@ -125,8 +125,8 @@ void CoSimulation::Impl::thaw_what_lattices_hit(double dt) {
   for (std::size_t before = pieces_.size() + 1, now = 0; now != before;) {
     before = flexible_pieces().size();
     for (Piece* flexible : flexible_pieces()) {
-      for (const auto* body : bodies_within_reach(world_, lattice_, flexible->points, dt)) {
-        const auto found = piece_of_.find(body);
+      for (const NearBody& body : bodies_within_reach(world_, lattice_, flexible->points, dt)) {
+        const auto found = piece_of_.find(body.object);
         if (found != piece_of_.end()) consider_lattice_hit(*flexible, *found->second, dt);
       }
     }
@@ -246,34 +246,33 @@ void CoSimulation::Impl::refresh_roles(const std::vector<Piece*>& carried) {
   roles_stale_ = false;
 }
 
+// What bounds the step of an implicit object, or of grains, is contact.
 void CoSimulation::Impl::refuse_step(double substeps) const {
-  const auto stiffest = std::min_element(
-      lattice_.objects.begin(), lattice_.objects.end(),
-      [](const auto& a, const auto& b) { return a.largest_step < b.largest_step; });
+  const std::size_t hardest = time_operator_.hardest_object().value_or(0);
+  const LatticeObject& object = lattice_.objects[hardest];
+  const bool contact = time_operator_.is_implicit(hardest) || object.spring_frequency == 0.0;
   throw SimulationError(
-      {stiffest->authored.name,
-       "a tick would need " + std::to_string(std::llround(std::min(substeps, 1e15))) + " substeps",
-       "soften the material, coarsen the lattice, integrate it implicitly or raise most_substeps "
-       "(" +
+      {object.authored.name,
+       "a tick would need " + std::to_string(std::llround(std::min(substeps, 1e15))) + " substeps" +
+           (contact ? " for its contacts" : ""),
+       std::string(contact ? "soften the material, coarsen the lattice or raise most_substeps ("
+                           : "soften the material, coarsen the lattice, integrate it implicitly "
+                             "or raise most_substeps (") +
            std::to_string(settings_.most_substeps) + ")"});
 }
 
 CoSimulation::Impl::Surroundings CoSimulation::Impl::surroundings_of(
     const std::vector<Piece*>& flexible, double dt) const {
-  std::vector<const btCollisionObject*> near;
+  std::vector<NearBody> near;
   for (const Piece* piece : flexible) {
     const auto reached = bodies_within_reach(world_, lattice_, piece->points, dt);
     near.insert(near.end(), reached.begin(), reached.end());
   }
-  std::sort(near.begin(), near.end(), [](const btCollisionObject* a, const btCollisionObject* b) {
-    return a->getWorldArrayIndex() < b->getWorldArrayIndex();
-  });
-  near.erase(std::unique(near.begin(), near.end()), near.end());
   Surroundings surroundings;
-  for (const btCollisionObject* object : near) {
-    const auto found = piece_of_.find(object);
+  for (const NearBody& body : merged(std::move(near))) {
+    const auto found = piece_of_.find(body.object);
     if (found == piece_of_.end()) {
-      surroundings.bodies.push_back(object);
+      surroundings.bodies.push_back(body);
     } else {
       surroundings.carried.push_back(found->second);
     }
@@ -285,20 +284,24 @@ double CoSimulation::Impl::substeps_wanted(double dt) const {
   return std::ceil(dt / (time_operator_.largest_step() * settings_.step_scale));
 }
 
+double CoSimulation::Impl::substeps_wanted_by(std::size_t object, double dt) const {
+  return std::ceil(dt / (time_operator_.largest_step_of(object) * settings_.step_scale));
+}
+
 int CoSimulation::Impl::substeps_for(double dt) {
-  const bool automatic = settings_.integration == Integration::kAutomatic;
-  if (automatic && substeps_wanted(dt) > settings_.most_substeps) make_stiffest_implicit(dt);
+  if (substeps_wanted(dt) > settings_.most_substeps) make_stiffest_implicit(dt);
   const double wanted = substeps_wanted(dt);
   if (!(wanted <= settings_.most_substeps)) refuse_step(wanted);  // nor NaN
   return std::max(1, static_cast<int>(wanted));
 }
 
-// All that would need too many substeps.
+// All that would need too many substeps and may choose by itself.
 void CoSimulation::Impl::make_stiffest_implicit(double dt) {
   for (std::size_t o = 0; o < lattice_.objects.size(); ++o) {
     const LatticeObject& object = lattice_.objects[o];
-    const double wanted = std::ceil(dt / (object.largest_step * settings_.step_scale));
-    if (time_operator_.is_implicit(o) || !(wanted > settings_.most_substeps)) continue;
+    const double wanted = substeps_wanted_by(o, dt);
+    if (integration_[o] != Integration::kAutomatic || time_operator_.is_implicit(o)) continue;
+    if (!(wanted > settings_.most_substeps)) continue;
     if (object.spring_frequency == 0.0 && object.spring_damping == 0.0) continue;  // grains
     time_operator_.make_implicit(o);
     notes_.push_back({object.authored.name,
@@ -318,7 +321,7 @@ void CoSimulation::Impl::step_lattices(double dt) {
   for (const Piece* piece : surroundings.carried) {
     carried.push_back({&piece->proxy->body(), piece->points, piece->proxy->local()});
   }
-  contacts_.begin_tick(world_, lattice_, surroundings.bodies, carried);
+  contacts_.begin_tick(world_, lattice_, boundary_, surroundings.bodies, carried, dt);
   const int substeps = substeps_for(dt);
   environment_.gravity = from_bullet(world_.getGravity());
   time_operator_.set_time(time_);

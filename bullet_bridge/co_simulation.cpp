@@ -34,7 +34,7 @@ const CoSimulationSettings& valid(const CoSimulationSettings& settings) {
 
 }  // namespace
 
-std::size_t CoSimulation::Impl::add(PhysicalModel model) {
+std::size_t CoSimulation::Impl::add(PhysicalModel model, Integration integration) {
   const bool pinned = std::any_of(model.points.begin(), model.points.end(),
                                   [](const PointAttributes& point) { return point.pinned; });
   if (pinned && settings_.representation == Representation::kAlwaysRigid) {
@@ -43,6 +43,8 @@ std::size_t CoSimulation::Impl::add(PhysicalModel model) {
                       "unpin them, or simulate it switching or always flexible"});
   }
   const std::size_t object = add_object(lattice_, std::move(model));
+  integration_.push_back(integration);
+  if (integration == Integration::kImplicit) time_operator_.make_implicit(object);
   rebuild_active(lattice_);
   time_operator_.roles_changed();
   boundary_.reset(lattice_.breaking);
@@ -87,7 +89,9 @@ CoSimulation::CoSimulation(btDiscreteDynamicsWorld& world, const CoSimulationSet
 
 CoSimulation::~CoSimulation() = default;
 
-std::size_t CoSimulation::add(PhysicalModel model) { return impl_->add(std::move(model)); }
+std::size_t CoSimulation::add(PhysicalModel model, std::optional<Integration> integration) {
+  return impl_->add(std::move(model), integration.value_or(impl_->settings_.integration));
+}
 
 void CoSimulation::set_air(std::optional<Air> air) {
   Environment changed = impl_->environment_;

@@ -137,7 +137,8 @@ class CoSimulation {
   // index. What holds a pinned point stays flexible, what is under load starts so. Throws
   // InputError naming what is wrong with the model, or that it is pinned and kAlwaysRigid is asked
   // for.
-  std::size_t add(PhysicalModel model);
+  // `integration`: of this object; none: that of the settings.
+  std::size_t add(PhysicalModel model, std::optional<Integration> integration = {});
 
   // The air that all faces with a drag coefficient feel, in either representation. None at first.
   // Change the wind between steps; its animation goes by the simulation's time. Throws InputError.

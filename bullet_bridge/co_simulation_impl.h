@@ -35,7 +35,7 @@ class CoSimulation::Impl : public TickHooks {
   void after_solve(double dt) override;
   void after_move(double dt) override;
 
-  std::size_t add(PhysicalModel model);
+  std::size_t add(PhysicalModel model, Integration integration);
   void sync_points() const;
   std::vector<std::int32_t> points_of_object(std::size_t object) const;
 
@@ -43,11 +43,8 @@ class CoSimulation::Impl : public TickHooks {
   CoSimulationSettings settings_;
   // Rigid pieces' points are written when somebody asks for them.
   mutable Lattice lattice_;
-  TimeOperator time_operator_{lattice_,
-                              settings_.integration == Integration::kImplicit
-                                  ? Integrator::kImplicitEuler
-                                  : Integrator::kSymplecticEuler,
-                              settings_.springs};
+  TimeOperator time_operator_{lattice_, Integrator::kSymplecticEuler, settings_.springs};
+  std::vector<Integration> integration_;  // shape (objects)
   Environment environment_;
   BoundaryTracker boundary_;
   ContactSolver contacts_;
@@ -87,13 +84,14 @@ class CoSimulation::Impl : public TickHooks {
 
   // What lattices may touch in this tick, in the order of the world.
   struct Surroundings {
-    std::vector<const btCollisionObject*> bodies;
+    std::vector<NearBody> bodies;
     std::vector<Piece*> carried;  // rigid pieces
   };
   Surroundings surroundings_of(const std::vector<Piece*>& flexible, double dt) const;
   int substeps_for(double dt);
   double substeps_wanted(double dt) const;
   void make_stiffest_implicit(double dt);
+  double substeps_wanted_by(std::size_t object, double dt) const;
   [[noreturn]] void refuse_step(double substeps) const;
   void note(const StepReport& report);
   bool switching() const { return settings_.representation == Representation::kSwitching; }

@@ -20,40 +20,39 @@ constexpr int kListInterval = 32;
 constexpr double kPushShare = 0.25;
 constexpr double kListMargin = 1e-3;  // m
 
-// A penetration that was there when a contact was first seen is taken back at this speed, m/s: it
-// bounds the kinetic energy per mass that easing out may cost to 1.25 mJ/kg, and clears a shell's
-// wall of 5 mm in 0.1 s. Without it pieces that thaw again and again sink into the floor.
-constexpr double kEaseSpeed = 0.05;
-
 Vec3 gravity_of(const ShadowBody& shadow) {
   return shadow.movable() ? from_bullet(shadow.body->getGravity()) : Vec3(Vec3::Zero());
 }
 
-PenaltyContact law_between(const LatticeObject& object, const btCollisionObject& body) {
-  const ObjectAttributes& attributes = object.authored.object;
-  PenaltyContact law;
-  law.frequency = object.contact_frequency;
-  law.restitution = attributes.restitution * body.getRestitution();
-  law.friction = attributes.friction * body.getFriction();
-  return law;
-}
-
-bool before(std::int32_t point_a, std::int32_t part_a, std::int32_t point_b, std::int32_t part_b) {
-  return std::pair(point_a, part_a) < std::pair(point_b, part_b);
+// m/s, of any point of the body.
+double largest_speed(const ShadowBody& body, const btCollisionObject& object) {
+  double speed = body.velocity.norm();
+  if (!body.moves()) return speed;
+  btVector3 centre;
+  btScalar radius = 0;
+  object.getCollisionShape()->getBoundingSphere(centre, radius);
+  return speed + body.angular_velocity.norm() * (radius + centre.length());
 }
 
 }  // namespace
 
 void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const Lattice& lattice,
-                               std::span<const btCollisionObject* const> near,
-                               std::span<const CarriedPiece> carried) {
+                               const BoundaryTracker& boundary, std::span<const NearBody> near,
+                               std::span<const CarriedPiece> carried, double tick) {
   shadows_.clear();
-  last_tick_ = std::exchange(obstacles_, {});
+  boundary_ = &boundary;
+  std::vector<Obstacle> last_tick = std::exchange(obstacles_, {});
   carried_.assign(carried.begin(), carried.end());
   carried_shadow_.clear();
   substep_ = 0;
-  for (const btCollisionObject* object : near) {
-    obstacles_.push_back(make_obstacle(*object, lattice));
+  for (const NearBody& body : near) {
+    const int shadow = shadows_.shadow_of(*body.object);
+    const Vec3 way = Vec3::Constant(largest_speed(shadows_[shadow], *body.object) * tick);
+    obstacles_.emplace_back(*body.object, shadow, shadows_[shadow], lattice, body.low - way,
+                            body.high + way, shapes_);
+    const auto same = [&](const Obstacle& then) { return &then.object() == body.object; };
+    const auto then = std::find_if(last_tick.begin(), last_tick.end(), same);
+    if (then != last_tick.end()) obstacles_.back().remember(std::move(*then));
   }
   for (const CarriedPiece& piece : carried_) {
     carried_shadow_.push_back(shadows_.shadow_of(*piece.body));
@@ -63,123 +62,29 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const Lattice& la
   supports_ = group_support_contacts(contacts, shadows_);
   supported_.assign(static_cast<std::size_t>(shadows_.size()), false);
   for (const SupportContact& c : contacts) supported_[c.a] = supported_[c.b] = true;
-  give_back_offsets();
-}
-
-ContactSolver::Obstacle ContactSolver::make_obstacle(const btCollisionObject& object,
-                                                     const Lattice& lattice) {
-  Obstacle obstacle;
-  obstacle.shadow = shadows_.shadow_of(object);
-  obstacle.object = &object;
-  obstacle.parts = contact_parts(*object.getCollisionShape());
-  for (const LatticeObject& other : lattice.objects) {
-    obstacle.laws.push_back(law_between(other, object));
-  }
-  const ShadowBody& body = shadows_[obstacle.shadow];
-  obstacle.at_rest = !body.movable() && !body.moves();
-  if (obstacle.at_rest) {
-    for (ContactPart& part : obstacle.parts) part = placed(part, body.position, body.rotation);
-  }
-  return obstacle;
-}
-
-Vec3 ContactSolver::to_obstacle_frame(const Obstacle& obstacle, const Vec3& point) const {
-  if (obstacle.at_rest) return point;
-  const ShadowBody& body = shadows_[obstacle.shadow];
-  return body.rotation.transpose() * (point - body.position);
-}
-
-// Contacts of the last tick are found again with their offsets.
-void ContactSolver::give_back_offsets() {
-  for (Obstacle& now : obstacles_) {
-    for (Obstacle& then : last_tick_) {
-      if (then.object == now.object) now.candidates = std::move(then.candidates);
-    }
-  }
-  last_tick_.clear();
 }
 
 void ContactSolver::add_forces(Lattice& lattice, double dt) {
-  if (substep_++ % kListInterval == 0) list_candidates(lattice, dt);
+  if (substep_++ % kListInterval == 0) list_pairs(lattice, dt);
   for (Obstacle& obstacle : obstacles_) {
-    for (Candidate& candidate : obstacle.candidates) push(lattice, obstacle, candidate, dt);
+    obstacle.press(lattice, surface_, shadows_[obstacle.shadow()], dt);
   }
 }
 
-void ContactSolver::list_candidates(const Lattice& lattice, double dt) {
+void ContactSolver::list_pairs(const Lattice& lattice, double dt) {
   double fastest = 0.0;
   for (std::int32_t p : lattice.dynamic_points) {
     fastest = std::max(fastest, lattice.motion[p].velocity.squaredNorm());
   }
   fastest = std::sqrt(fastest);
+  surface_ = LatticeSurface(lattice, *boundary_);
+  const double time = kListInterval * dt;
   for (Obstacle& obstacle : obstacles_) {
-    const ShadowBody& body = shadows_[obstacle.shadow];
-    double body_speed = body.velocity.norm();
-    if (body.movable()) {
-      btVector3 centre;
-      btScalar radius = 0;
-      obstacle.object->getCollisionShape()->getBoundingSphere(centre, radius);
-      body_speed += body.angular_velocity.norm() * radius;
-    }
-    const double time = kListInterval * dt;
-    const double least_reach = (2.0 * body_speed + kPushShare * fastest) * time + kListMargin;
-    list_candidates_of(obstacle, lattice, least_reach, 2.0 * time);
+    const ShadowBody& body = shadows_[obstacle.shadow()];
+    const double body_speed = largest_speed(body, obstacle.object());
+    const double least = (2.0 * body_speed + kPushShare * fastest) * time + kListMargin;
+    obstacle.list(lattice, surface_, body, {least, 2.0 * time});
   }
-}
-
-void ContactSolver::list_candidates_of(Obstacle& obstacle, const Lattice& lattice,
-                                       double least_reach, double time) {
-  const std::vector<Candidate> old = std::exchange(obstacle.candidates, {});
-  for (std::int32_t p : lattice.dynamic_points) {
-    const Vec3 local = to_obstacle_frame(obstacle, lattice.motion[p].position);
-    const double reach = least_reach + lattice.motion[p].velocity.norm() * time;
-    for (std::size_t k = 0; k < obstacle.parts.size(); ++k) {
-      const double depth = penetration(obstacle.parts[k], local).depth;
-      if (depth < -reach) continue;
-      const auto part = static_cast<std::int32_t>(k);
-      const auto known = std::lower_bound(old.begin(), old.end(), std::pair(p, part),
-                                          [](const Candidate& c, const auto& key) {
-                                            return before(c.point, c.part, key.first, key.second);
-                                          });
-      const bool listed_before = known != old.end() && known->point == p && known->part == part;
-      // A point that is found inside without having come in starts without force (a proxy that
-      // thaws where its hull touches): the depth it has counts as surface until it has left.
-      const double offset = listed_before ? known->offset : std::max(0.0, depth);
-      obstacle.candidates.push_back({p, part, offset});
-    }
-  }
-}
-
-void ContactSolver::push(Lattice& lattice, const Obstacle& obstacle, Candidate& candidate,
-                         double dt) {
-  ShadowBody& body = shadows_[obstacle.shadow];
-  const PointMotion& point = lattice.motion[candidate.point];
-  const Vec3 local = to_obstacle_frame(obstacle, point.position);
-  const ContactPart& part = obstacle.parts[candidate.part];
-  if (!contains(part, local)) {
-    candidate.offset = 0.0;
-    return;
-  }
-  const Penetration inside = penetration(part, local);
-  candidate.offset =
-      std::min(std::max(0.0, candidate.offset - kEaseSpeed * dt), std::max(0.0, inside.depth));
-  const double depth = inside.depth - candidate.offset;
-  if (depth <= 0.0) return;
-
-  const Vec3 normal = obstacle.at_rest ? inside.normal : Vec3(body.rotation * inside.normal);
-  const double mass = lattice.mass[candidate.point];
-  const double reduced_mass =
-      body.movable() ? 1.0 / (1.0 / mass + body.inverse_effective_mass(point.position, normal))
-                     : mass;
-  const PenaltyContact& law = obstacle.laws[lattice.point_object[candidate.point]];
-  const Vec3 slip = point.velocity - body.velocity_at(point.position);
-  const double separation = slip.dot(normal);
-  const double press = penalty_force(law, reduced_mass, depth, separation);
-  const Vec3 force = press * normal + friction_force(law.friction, press, reduced_mass,
-                                                     slip - separation * normal, dt);
-  lattice.force[candidate.point] += force;
-  lattice.touched[candidate.point] = 1;
-  if (body.movable()) body.add_force(-force, point.position);
 }
 
 void ContactSolver::advance(Lattice& lattice, double dt) {

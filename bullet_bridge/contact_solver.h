@@ -3,9 +3,11 @@
 #include <span>
 #include <vector>
 
-#include "bullet_bridge/contact_shape.h"
+#include "bullet_bridge/neighbourhood.h"
+#include "bullet_bridge/obstacle.h"
+#include "bullet_bridge/shapes/shape_cache.h"
 #include "bullet_bridge/support_contacts.h"
-#include "core/contact/penalty.h"
+#include "core/operators/boundary_tracker.h"
 #include "core/operators/time_operator.h"
 
 class btDiscreteDynamicsWorld;
@@ -21,17 +23,18 @@ struct CarriedPiece {
   std::span<const Vec3> local;  // positions of the points in the body's frame, m
 };
 
-// Lattice points against Bullet's bodies at the substep rate (the coupling of the time operator).
+// Lattices against Bullet's bodies at the substep rate (the coupling of the time operator).
 // Contract, per tick: begin_tick() copies the bodies near the lattice, and what supports them, into
 // shadows; the substeps exchange equal and opposite forces between points and shadows;
 // write_velocities() gives Bullet the result before it solves; correct_poses() after it moved.
 // Bullet owns every mass outside of the lattice, this owns nothing beyond the tick.
 class ContactSolver : public SubstepCoupling {
  public:
-  // `near`: bodies whose shapes lattice points may reach in this tick, in a fixed order.
+  // `near`: bodies that the lattice may reach in this tick, in a fixed order. `boundary` has to
+  // follow the lattice's breaks.
   void begin_tick(btDiscreteDynamicsWorld& world, const Lattice& lattice,
-                  std::span<const btCollisionObject* const> near,
-                  std::span<const CarriedPiece> carried);
+                  const BoundaryTracker& boundary, std::span<const NearBody> near,
+                  std::span<const CarriedPiece> carried, double tick);
 
   void add_forces(Lattice& lattice, double dt) override;
   void advance(Lattice& lattice, double dt) override;
@@ -44,27 +47,7 @@ class ContactSolver : public SubstepCoupling {
   bool touched(const btCollisionObject& body) const;
 
  private:
-  struct Candidate {
-    std::int32_t point;
-    std::int32_t part;
-    double offset;  // m of penetration that was there when the pair was first seen
-  };
-  struct Obstacle {
-    int shadow;
-    const btCollisionObject* object;
-    bool at_rest;                       // immovable and not moving: parts are in world coordinates
-    std::vector<ContactPart> parts;     // otherwise in the body's frame
-    std::vector<PenaltyContact> laws;   // against each object of the lattice
-    std::vector<Candidate> candidates;  // ascending by (point, part)
-  };
-
-  Obstacle make_obstacle(const btCollisionObject& object, const Lattice& lattice);
-  Vec3 to_obstacle_frame(const Obstacle& obstacle, const Vec3& point) const;
-  void list_candidates(const Lattice& lattice, double dt);
-  void list_candidates_of(Obstacle& obstacle, const Lattice& lattice, double least_reach,
-                          double time);
-  void push(Lattice& lattice, const Obstacle& obstacle, Candidate& candidate, double dt);
-  void give_back_offsets();
+  void list_pairs(const Lattice& lattice, double dt);
   void pass_on_carried_forces(const Lattice& lattice);
   void move_carried_points(Lattice& lattice) const;
 
@@ -74,7 +57,9 @@ class ContactSolver : public SubstepCoupling {
   std::vector<CarriedPiece> carried_;
   std::vector<int> carried_shadow_;
   std::vector<bool> supported_;  // by shadow: has support contacts, so that Bullet adds its gravity
-  std::vector<Obstacle> last_tick_;  // to find again what was in contact
+  const BoundaryTracker* boundary_ = nullptr;
+  LatticeSurface surface_;
+  ShapeCache shapes_;
   int substep_ = 0;
 };
 

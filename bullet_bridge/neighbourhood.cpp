@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_bridge/contact_shape.h"
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/shadow_body.h"
+#include "bullet_bridge/shapes/contact_shape.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -65,20 +65,32 @@ std::vector<std::int32_t> points_near(const Lattice& lattice, std::span<const st
 
 }  // namespace
 
-std::vector<const btCollisionObject*> bodies_within_reach(btDiscreteDynamicsWorld& world,
-                                                          const Lattice& lattice,
-                                                          std::span<const std::int32_t> points,
-                                                          double dt) {
+std::vector<NearBody> bodies_within_reach(btDiscreteDynamicsWorld& world, const Lattice& lattice,
+                                          std::span<const std::int32_t> points, double dt) {
   const Bounds bounds = bounds_of(lattice, points);
   const Vec3 reach = Vec3::Constant(1.5 * bounds.fastest * dt + kReachMargin);
+  const Vec3 low = bounds.low - reach, high = bounds.high + reach;
   Collector collector;
-  world.getBroadphase()->aabbTest(to_bullet(bounds.low - reach), to_bullet(bounds.high + reach),
-                                  collector);
-  std::sort(collector.found.begin(), collector.found.end(),
-            [](const btCollisionObject* a, const btCollisionObject* b) {
-              return a->getWorldArrayIndex() < b->getWorldArrayIndex();
-            });
-  return collector.found;
+  world.getBroadphase()->aabbTest(to_bullet(low), to_bullet(high), collector);
+  std::vector<NearBody> near;
+  for (const btCollisionObject* object : collector.found) near.push_back({object, low, high});
+  return merged(std::move(near));
+}
+
+std::vector<NearBody> merged(std::vector<NearBody> near) {
+  std::stable_sort(near.begin(), near.end(), [](const NearBody& a, const NearBody& b) {
+    return a.object->getWorldArrayIndex() < b.object->getWorldArrayIndex();
+  });
+  std::vector<NearBody> once;
+  for (const NearBody& body : near) {
+    if (once.empty() || once.back().object != body.object) {
+      once.push_back(body);
+    } else {
+      once.back().low = once.back().low.cwiseMin(body.low);
+      once.back().high = once.back().high.cwiseMax(body.high);
+    }
+  }
+  return once;
 }
 
 double closing_speed(const Lattice& lattice, std::span<const std::int32_t> one,

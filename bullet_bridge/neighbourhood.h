@@ -12,13 +12,20 @@ class btCollisionObject;
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
+// A body that points may reach, and the box in the world, m, in which they may meet it.
+struct NearBody {
+  const btCollisionObject* object;
+  Vec3 low, high;
+};
+
 // The bodies whose bounding boxes the points may reach within dt (their boxes already include their
 // own way in this tick), in the order in which the world holds them. Bodies without contact
 // response are left out.
-std::vector<const btCollisionObject*> bodies_within_reach(btDiscreteDynamicsWorld& world,
-                                                          const Lattice& lattice,
-                                                          std::span<const std::int32_t> points,
-                                                          double dt);
+std::vector<NearBody> bodies_within_reach(btDiscreteDynamicsWorld& world, const Lattice& lattice,
+                                          std::span<const std::int32_t> points, double dt);
+
+// In the order of the world, each body once, with a box around all of its boxes.
+std::vector<NearBody> merged(std::vector<NearBody> near);
 
 // The largest speed at which a point of one piece and a point of the other, near enough to meet
 // within dt, approach; 0 when none can meet. Of pieces with many points that near each other, a

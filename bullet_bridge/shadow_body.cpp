@@ -1,18 +1,48 @@
 #include "bullet_bridge/shadow_body.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <LinearMath/btTransformUtil.h>
 
 #include "bullet_bridge/conversions.h"
-#include "core/dynamics/free_rotation.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 namespace {
 
-void refresh_rotation(ShadowBody& shadow) {
-  shadow.rotation = shadow.orientation.toRotationMatrix();
-  shadow.inverse_inertia =
-      shadow.rotation * shadow.inverse_inertia_local * shadow.rotation.transpose();
+constexpr int kGyroscopicFlags = BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT |
+                                 BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD |
+                                 BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
+
+// Where Bullet moves the body by the shadow's velocities alone: its own exponential map, which cuts
+// turns of more than an eighth.
+btTransform moved_by_bullet(const ShadowBody& shadow, double tick) {
+  const btTransform start(to_bullet(shadow.start_orientation), to_bullet(shadow.start_position));
+  btTransform end;
+  btTransformUtil::integrateTransform(start, to_bullet(shadow.velocity),
+                                      to_bullet(shadow.angular_velocity),
+                                      static_cast<btScalar>(tick), end);
+  return end;
+}
+
+Mat3 inertia_at(const Vec3& moments, const Eigen::Quaterniond& orientation) {
+  const Mat3 axes = orientation.toRotationMatrix();
+  return axes * moments.asDiagonal() * axes.transpose();
+}
+
+// The impulses that Bullet gave besides are meant for the pose at the tick's start: J there is
+// J x shift too much about the centre where the body is, and a spin was given to another inertia.
+void keep_angular_momentum(const ShadowBody& shadow, const Vec3& shift) {
+  btRigidBody& body = *shadow.body;
+  const btVector3 dv = body.getLinearVelocity() - to_bullet(shadow.velocity);
+  const btVector3 spun = body.getAngularVelocity() - to_bullet(shadow.angular_velocity);
+  const Vec3 inverse = shadow.inverse_inertia_local.diagonal();
+  if ((dv.isZero() && spun.isZero()) || inverse.minCoeff() <= 0.0) return;
+  const Vec3 moments = inverse.cwiseInverse();
+  const Vec3 L = angular_momentum(shadow) +
+                 inertia_at(moments, shadow.start_orientation) * from_bullet(spun) -
+                 shift.cross(from_bullet(dv)) / shadow.inverse_mass;
+  const Eigen::Quaterniond now = from_bullet(body.getWorldTransform().getRotation());
+  body.setAngularVelocity(to_bullet(now * (now.conjugate() * L).cwiseProduct(inverse)));
 }
 
 }  // namespace
@@ -25,6 +55,7 @@ ShadowBody make_shadow(const btCollisionObject& object) {
   auto* body = const_cast<btRigidBody*>(btRigidBody::upcast(&object));
   if (body) {
     shadow.body = body;
+    shadow.flags = body->getFlags();
     shadow.velocity = from_bullet(body->getLinearVelocity());
     shadow.angular_velocity = from_bullet(body->getAngularVelocity());
   }
@@ -36,35 +67,26 @@ ShadowBody make_shadow(const btCollisionObject& object) {
   return shadow;
 }
 
-void apply_forces(ShadowBody& shadow, double dt) {
-  shadow.velocity += shadow.force * (shadow.inverse_mass * dt);
-  shadow.angular_velocity += shadow.inverse_inertia * shadow.torque * dt;
-  shadow.force.setZero();
-  shadow.torque.setZero();
-}
-
-void advance_pose(ShadowBody& shadow, double dt) {
-  shadow.position += shadow.velocity * dt;
-  shadow.orientation = turned(shadow.orientation, shadow.angular_velocity, dt);
-  refresh_rotation(shadow);
-}
-
 void write_velocity(const ShadowBody& shadow, const Vec3& velocity) {
   shadow.body->setLinearVelocity(to_bullet(velocity));
   shadow.body->setAngularVelocity(to_bullet(shadow.angular_velocity));
+  shadow.body->setFlags(shadow.flags & ~kGyroscopicFlags);
 }
 
 void correct_pose(const ShadowBody& shadow, double tick) {
-  btTransform pose = shadow.body->getWorldTransform();
-  const Vec3 shift = shadow.position - shadow.start_position - shadow.velocity * tick;
-  const Eigen::Quaterniond straight =
-      turned(shadow.start_orientation, shadow.angular_velocity, tick);
-  const Eigen::Quaterniond turn = shadow.orientation * straight.conjugate();
+  btRigidBody& body = *shadow.body;
+  const btTransform straight = moved_by_bullet(shadow, tick);
+  const Vec3 shift = shadow.position - from_bullet(straight.getOrigin());
+  const Eigen::Quaterniond turn =
+      shadow.orientation * from_bullet(straight.getRotation()).conjugate();
+  btTransform pose = body.getWorldTransform();
   pose.setOrigin(to_bullet(from_bullet(pose.getOrigin()) + shift));
   pose.setRotation(to_bullet((turn * from_bullet(pose.getRotation())).normalized()));
-  shadow.body->setWorldTransform(pose);
-  shadow.body->setInterpolationWorldTransform(pose);
-  shadow.body->updateInertiaTensor();
+  body.setWorldTransform(pose);
+  body.setInterpolationWorldTransform(pose);
+  body.updateInertiaTensor();
+  keep_angular_momentum(shadow, shift);
+  body.setFlags(shadow.flags);
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -2,8 +2,9 @@ option(LIMBER_TESTS "build tests and benchmarks" ON)
 option(LIMBER_WERROR "treat warnings as errors" OFF)
 set(LIMBER_SANITIZE "" CACHE STRING "sanitizers, for instance address,undefined")
 
-# Without a preset CMake would build without optimisation. Release is -O3 -DNDEBUG; no -march: results
-# must not depend on the machine (see -ffp-contract below).
+# Without a preset CMake would build without optimisation. Release is -O3 -DNDEBUG; no -march: one
+# binary runs everywhere, and vector instructions are chosen at run time (single-precision springs
+# differ by target, see docs/accuracy.md; all else does not, see -ffp-contract below).
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release or RelWithDebInfo" FORCE)
 endif()

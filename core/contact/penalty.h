@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/model/vec3.h"
 
@@ -9,11 +10,28 @@ namespace limber {
 
 // The penalty law shared by point-point and point-body contact. The stiffness follows from masses,
 // k = omega_c^2 m with m the reduced mass of the pair, so that the contact's own frequency is
-// omega_c whatever the masses are.
+// omega_c whatever the masses are. A contact may be stiffer from some depth on: what is soft where
+// it touches then still bears what is heavy.
 struct PenaltyContact {
-  double frequency = 0.0;    // omega_c, rad/s
-  double restitution = 0.0;  // e, 0..1
-  double friction = 0.0;     // Coulomb coefficient
+  double frequency = 0.0;                                       // omega_c, rad/s
+  double restitution = 0.0;                                     // e, 0..1
+  double friction = 0.0;                                        // Coulomb coefficient
+  double soft_depth = std::numeric_limits<double>::infinity();  // m, to which omega_c holds
+  double deep_frequency = 0.0;                                  // rad/s, beyond that
+
+  // Force without restitution, N.
+  double elastic_force(double reduced_mass, double depth) const {
+    const double soft = std::min(depth, soft_depth);
+    return reduced_mass *
+           (frequency * frequency * soft + deep_frequency * deep_frequency * (depth - soft));
+  }
+  // What pressing it in to this depth takes, J.
+  double elastic_energy(double reduced_mass, double depth) const {
+    const double soft = std::min(depth, soft_depth);
+    return 0.5 * (elastic_force(reduced_mass, soft) * soft +
+                  (elastic_force(reduced_mass, soft) + elastic_force(reduced_mass, depth)) *
+                      (depth - soft));
+  }
 };
 
 // A contact that gave nothing back would never push out what has come in: a restitution below this
@@ -27,9 +45,8 @@ inline constexpr double kLeastRestitution = 0.1;
 inline double penalty_force(const PenaltyContact& law, double reduced_mass, double depth,
                             double separation_speed) {
   if (depth <= 0.0) return 0.0;
-  const double k = law.frequency * law.frequency * reduced_mass;
   const double e = std::max(law.restitution, kLeastRestitution);
-  return (separation_speed > 0.0 ? e * e : 1.0) * k * depth;
+  return (separation_speed > 0.0 ? e * e : 1.0) * law.elastic_force(reduced_mass, depth);
 }
 
 // Share of the tangential momentum that sticking friction removes in one substep. 1 would stop a

@@ -42,6 +42,21 @@ class PointGrid {
     }
   }
 
+  // Calls visit(i) once for every point in a cell that the box from `low` to `high` touches, in an
+  // order that depends on the positions alone.
+  template <class Visit>
+  void for_each_around(const Vec3& low, const Vec3& high, Visit visit) const {
+    const Cell from = cell_of(low), to = cell_of(high);
+    for (std::int64_t x = from.x; x <= to.x; ++x) {
+      for (std::int64_t y = from.y; y <= to.y; ++y) {
+        auto entry = first_not_before({x, y, from.z});
+        for (; entry != entries_.end() && entry->cell <= Cell{x, y, to.z}; ++entry) {
+          visit(entry->point);
+        }
+      }
+    }
+  }
+
  private:
   struct Cell {
     std::int64_t x, y, z;
@@ -57,6 +72,11 @@ class PointGrid {
     return {static_cast<std::int64_t>(std::floor(p.x() * inverse_cell_)),
             static_cast<std::int64_t>(std::floor(p.y() * inverse_cell_)),
             static_cast<std::int64_t>(std::floor(p.z() * inverse_cell_))};
+  }
+
+  std::vector<Entry>::const_iterator first_not_before(const Cell& cell) const {
+    return std::lower_bound(entries_.begin(), entries_.end(), cell,
+                            [](const Entry& e, const Cell& c) { return e.cell < c; });
   }
 
   std::size_t end_of_cell(std::size_t first) const {
@@ -75,8 +95,7 @@ class PointGrid {
   template <class Visit>
   void pairs_between(std::size_t first, std::size_t last, const Cell& from, const Cell& to,
                      Visit& visit) const {
-    auto other = std::lower_bound(entries_.begin(), entries_.end(), from,
-                                  [](const Entry& e, const Cell& c) { return e.cell < c; });
+    auto other = first_not_before(from);
     for (; other != entries_.end() && other->cell <= to; ++other) {
       for (std::size_t i = first; i < last; ++i) visit(entries_[i].point, other->point);
     }

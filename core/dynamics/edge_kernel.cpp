@@ -39,7 +39,7 @@ HWY_INLINE void gather(const EdgeColumns& edges, std::int32_t first, const Packe
 
 HWY_INLINE std::uint32_t pull_some(const EdgeColumns& edges, std::int32_t first,
                                    const Differences& differences, std::int32_t from,
-                                   PackedForce* pulls) {
+                                   float* pulls) {
   const Floats f;
   VF dx, dy, dz, wx, wy, wz, none;
   hn::LoadInterleaved4(f, differences.d + 4 * from, dx, dy, dz, none);
@@ -49,7 +49,7 @@ HWY_INLINE std::uint32_t pull_some(const EdgeColumns& edges, std::int32_t first,
                                hn::LoadU(f, edges.rest_length + e)};
   const VectorPull pull = vector_pull(spring, dx, dy, dz, wx, wy, wz);
   hn::StoreInterleaved4(hn::Mul(pull.per_length, dx), hn::Mul(pull.per_length, dy),
-                        hn::Mul(pull.per_length, dz), hn::Zero(f), f, pulls[from].value);
+                        hn::Mul(pull.per_length, dz), hn::Zero(f), f, pulls + 4 * from);
   const auto too_long = hn::Gt(pull.excess, hn::LoadU(f, edges.longest + e));
   const auto too_short = hn::Lt(pull.excess, hn::LoadU(f, edges.shortest + e));
   return bits_of(hn::Or(too_long, too_short));
@@ -58,7 +58,7 @@ HWY_INLINE std::uint32_t pull_some(const EdgeColumns& edges, std::int32_t first,
 }  // namespace
 
 std::uint64_t pull_batch(const EdgeColumns& edges, std::int32_t first, const PackedMotion* motion,
-                         PackedForce* pulls) {
+                         float* pulls) {
   Differences differences;
   gather(edges, first, motion, differences);
   std::uint64_t bits = 0;
@@ -69,11 +69,11 @@ std::uint64_t pull_batch(const EdgeColumns& edges, std::int32_t first, const Pac
   return bits;
 }
 
-void scatter_batch(const EdgeColumns& edges, std::int32_t first, const PackedForce* pulls,
+void scatter_batch(const EdgeColumns& edges, std::int32_t first, const float* pulls,
                    PackedForce* force) {
   const Float4 f;
   for (std::int32_t e = 0; e < kEdgeBatch; ++e) {
-    const auto pull = hn::Load(f, pulls[e].value);
+    const auto pull = hn::LoadU(f, pulls + 4 * e);
     float* a = force[edges.a[first + e]].value;
     float* b = force[edges.b[first + e]].value;
     hn::Store(hn::Add(hn::Load(f, a), pull), f, a);
@@ -92,11 +92,11 @@ HWY_EXPORT(pull_batch);
 HWY_EXPORT(scatter_batch);
 
 std::uint64_t pull_edges(const EdgeColumns& edges, std::int32_t first, const PackedMotion* motion,
-                         PackedForce* pulls) {
+                         float* pulls) {
   return HWY_DYNAMIC_DISPATCH(pull_batch)(edges, first, motion, pulls);
 }
 
-void scatter_pulls(const EdgeColumns& edges, std::int32_t first, const PackedForce* pulls,
+void scatter_pulls(const EdgeColumns& edges, std::int32_t first, const float* pulls,
                    PackedForce* force) {
   HWY_DYNAMIC_DISPATCH(scatter_batch)(edges, first, pulls, force);
 }

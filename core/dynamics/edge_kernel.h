@@ -29,13 +29,14 @@ struct EdgeColumns {
 // Springs that are computed together.
 inline constexpr std::int32_t kEdgeBatch = 64;
 
-// Forces of the springs [first, first + kEdgeBatch) on their first points. Bit i of the answer:
-// spring first + i may have passed a threshold.
+// Forces of the springs [first, first + kEdgeBatch) on their first points: four numbers each, the
+// last of them zero, N / quantum. Bit i of the answer: spring first + i may have passed a
+// threshold.
 std::uint64_t pull_edges(const EdgeColumns& edges, std::int32_t first, const PackedMotion* motion,
-                         PackedForce* pulls);
+                         float* pulls);
 
 // Adds the pulls of a batch to the forces on both ends, in the order of the springs.
-void scatter_pulls(const EdgeColumns& edges, std::int32_t first, const PackedForce* pulls,
+void scatter_pulls(const EdgeColumns& edges, std::int32_t first, const float* pulls,
                    PackedForce* force);
 
 }  // namespace limber

@@ -108,7 +108,7 @@ void EdgeSprings::pad() {
   rest_length_.resize(columns, 1.0f);
   longest_.resize(columns, Quanta::kNever);
   shortest_.resize(columns, -Quanta::kNever);
-  pulls_.resize(columns);
+  pulls_.resize(4 * columns);
   flags_.resize(batches);
 }
 
@@ -164,7 +164,7 @@ void EdgeSprings::pull_all() {
     for (std::size_t batch = from; batch < to; ++batch) {
       const std::size_t first = batch * kEdgeBatch;
       flags_[batch] = pull_edges(edges, static_cast<std::int32_t>(first), motion_.data(),
-                                 pulls_.data() + first);
+                                 pulls_.data() + 4 * first);
     }
   });
 }
@@ -191,9 +191,9 @@ void EdgeSprings::gather_pulls(std::size_t from, std::size_t to) {
   for (std::size_t i = from; i < to; ++i) {
     PackedForce sum = {};
     for (std::int32_t item : pulls_of_[i]) {
-      const PackedForce& pull = pulls_[item < 0 ? ~item : item];
+      const float* pull = &pulls_[4 * static_cast<std::size_t>(item < 0 ? ~item : item)];
       for (int axis = 0; axis < 3; ++axis) {
-        sum.value[axis] += item < 0 ? -pull.value[axis] : pull.value[axis];
+        sum.value[axis] += item < 0 ? -pull[axis] : pull[axis];
       }
     }
     force_[i] = sum;
@@ -214,7 +214,7 @@ void EdgeSprings::add_forces(Lattice& lattice, double dt,
   } else {
     std::fill(force_.begin(), force_.end(), PackedForce{});
     for (std::size_t first = 0; first < a_.size(); first += kEdgeBatch) {
-      scatter_pulls(columns(), static_cast<std::int32_t>(first), pulls_.data() + first,
+      scatter_pulls(columns(), static_cast<std::int32_t>(first), pulls_.data() + 4 * first,
                     force_.data());
     }
   }

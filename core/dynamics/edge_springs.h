@@ -59,7 +59,7 @@ class EdgeSprings {
   // Shape (columns), padded to whole batches
   std::vector<std::int32_t> a_, b_;
   std::vector<float> stiffness_, damping_, rest_length_, longest_, shortest_;
-  std::vector<PackedForce> pulls_;
+  std::vector<float> pulls_;
   std::vector<std::uint64_t> flags_;  // shape (batches)
 
   std::vector<std::int32_t> points_;  // of the lattice: ends of springs, ascending

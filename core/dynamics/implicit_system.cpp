@@ -43,24 +43,31 @@ void ImplicitSystem::rebuild(const Lattice& lattice, std::span<const std::int32_
   springs_.clear();
   couplings_.clear();
   mass_.clear();
-  row_.assign(lattice.motion.size(), kNoRow);
+  first_ = points.empty() ? 0 : points.front();
+  row_.assign(points.empty() ? 0 : points.back() - first_ + 1, kNoRow);
   for (std::int32_t p : points) {
     if (lattice.inverse_mass[p] == 0.0) continue;
-    row_[p] = static_cast<std::int32_t>(points_.size());
+    row_[p - first_] = static_cast<std::int32_t>(points_.size());
     points_.push_back(p);
     mass_.push_back(lattice.mass[p]);
   }
-  for (std::size_t i = 0; i < lattice.active.size(); ++i) {
-    add_spring(lattice, static_cast<std::int32_t>(i));
+  std::vector<std::int32_t> active;
+  for (std::int32_t p : points_) {
+    for (std::int32_t e : lattice.point_edges[p]) {
+      if (lattice.active_of_edge[e] >= 0) active.push_back(lattice.active_of_edge[e]);
+    }
   }
+  std::sort(active.begin(), active.end());
+  active.erase(std::unique(active.begin(), active.end()), active.end());
+  for (std::int32_t i : active) add_spring(lattice, i);
 }
 
 void ImplicitSystem::add_spring(const Lattice& lattice, std::int32_t active) {
   const Spring& s = lattice.active[active];
   if (s.stiffness == 0.0 && s.damping == 0.0) return;  // slack
   Coupling coupling;
-  coupling.a = row_[s.a];
-  coupling.b = row_[s.b];
+  coupling.a = row(s.a);
+  coupling.b = row(s.b);
   if (coupling.a == kNoRow) std::swap(coupling.a, coupling.b);
   if (coupling.a == kNoRow) return;
   const bool pinned = lattice.inverse_mass[s.a] == 0.0 || lattice.inverse_mass[s.b] == 0.0;
@@ -82,9 +89,9 @@ void ImplicitSystem::linearise(const Lattice& lattice, double dt,
     couplings_[i].b = b;
   }
   for (const PointSupport& s : supports) {
-    if (row_[s.point] == kNoRow) continue;
+    if (row(s.point) == kNoRow) continue;
     couplings_.push_back(coupling_of({s.normal, s.stiffness + s.damping / dt, 0.0}, dt));
-    couplings_.back().a = row_[s.point];
+    couplings_.back().a = row(s.point);
     couplings_.back().b = kNoRow;
   }
   diagonal_.clear();

@@ -67,7 +67,8 @@ struct Coupling {
 // the same impulse.
 class ImplicitSystem {
  public:
-  // Takes the points, and the active springs that join two of them or one and a pinned point.
+  // Takes the points (ascending), and the active springs that join two of them or one and a pinned
+  // point, at the cost of these.
   void rebuild(const Lattice& lattice, std::span<const std::int32_t> points);
 
   // A for a step of dt (s) at the points' present positions; the lengths (m) of springs() when it
@@ -82,13 +83,18 @@ class ImplicitSystem {
   const std::vector<std::int32_t>& springs() const { return springs_; }  // active ones
   const std::vector<Coupling>& couplings() const { return couplings_; }  // springs, then supports
   const std::vector<Mat3>& diagonal() const { return diagonal_; }        // blocks of A, kg
-  std::int32_t row(std::int32_t point) const { return row_[point]; }     // -1: none
+  std::int32_t row(std::int32_t point) const {                           // -1: none
+    const std::int32_t i = point - first_;
+    return i < 0 || i >= static_cast<std::int32_t>(row_.size()) ? -1 : row_[i];
+  }
   Eigen::Index size() const { return 3 * static_cast<Eigen::Index>(points_.size()); }
 
  private:
   void add_spring(const Lattice& lattice, std::int32_t active);
 
-  std::vector<std::int32_t> points_, springs_, row_;
+  std::vector<std::int32_t> points_, springs_;
+  std::int32_t first_ = 0;         // point
+  std::vector<std::int32_t> row_;  // of the points from the first to the last
   std::vector<Coupling> couplings_;
   std::vector<double> mass_;  // kg, of the rows
   std::vector<Mat3> diagonal_;

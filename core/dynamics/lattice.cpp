@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/element_shares.h"
 #include "core/dynamics/live_springs.h"
+#include "core/dynamics/may_fold.h"
 #include "core/dynamics/spring_force.h"
 #include "core/dynamics/stable_step.h"
 #include "core/model/bounds.h"
@@ -127,10 +129,28 @@ double pure_damping_rate(const PhysicalModel& model) {
   return rate;
 }
 
+// Of the springs; without any, none.
+double least_damping_time(const PhysicalModel& model) {  // s, c / k
+  double time = kUnbreakable;
+  for (const EdgeAttributes& e : model.edges) {
+    if (carries(e)) time = std::min(time, e.damping / e.stiffness);
+  }
+  return time;
+}
+
+bool has_loose_points(const PhysicalModel& model) {
+  const auto stiffness = stiffness_around(model);
+  return std::find(stiffness.begin(), stiffness.end(), 0.0) != stiffness.end();
+}
+
 void set_step(LatticeObject& object, const PhysicalModel& model) {
+  const bool folds = may_fold(model);
   object.contact_frequency = contact_frequency_of(model);
-  object.contacts_at_once = model.edges.empty() ? kContactsOfAGrain : 1.0;
-  object.spring_frequency = highest_frequency(model).omega_max;
+  object.has_loose_points = has_loose_points(model);
+  object.spring_frequency =
+      (folds ? large_strain_bound(model) : highest_frequency(model)).omega_max;
+  object.heeds_strain =
+      !folds && 0.5 * least_damping_time(model) * object.spring_frequency < kCalmingDampingRatio;
   object.spring_damping =
       largest_damping_time(model) * object.spring_frequency * object.spring_frequency +
       pure_damping_rate(model);
@@ -199,19 +219,15 @@ void append_active(Lattice& lattice, bool breakable) {
   }
 }
 
-// K <= K_springs + n omega_c^2 + k / m (Weyl; Gershgorin for n contacts of points of one mass, each
-// omega_c^2 m / 2), C <= beta K_springs + c / m.
-double step_with_springs(const LatticeObject& object, double spring_frequency,
-                         double spring_damping, double stiffness, double damping) {
-  const double omega =
-      std::sqrt(spring_frequency * spring_frequency +
-                object.contacts_at_once * object.contact_frequency * object.contact_frequency +
-                stiffness / object.least_mass);
-  const double rate = spring_damping + damping / object.least_mass;
+// Of modes of this stiffness over mass (1/s^2) and damping rate (1/s), with its safety.
+double safe_step(double omega_squared, double rate) {
   // Dampers alone: v' = (1 - C dt) v is stable to C dt = 2.
-  if (omega == 0.0) return rate > 0.0 ? kStepSafety * 2.0 / rate : stable_step(0.0, 0.0);
+  if (omega_squared == 0.0) return rate > 0.0 ? kStepSafety * 2.0 / rate : stable_step(0.0, 0.0);
+  const double omega = std::sqrt(omega_squared);
   return kStepSafety * stable_step(omega, rate / (2.0 * omega));
 }
+
+double square(double x) { return x * x; }
 
 template <class IdType>
 IdRange<IdType> next_range(std::size_t first, std::size_t count) {
@@ -264,13 +280,37 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   return lattice.objects.size() - 1;
 }
 
-double largest_step(const LatticeObject& object, double stiffness, double damping) {
-  return step_with_springs(object, object.spring_frequency, object.spring_damping, stiffness,
-                           damping);
+// K <= K_springs + omega_c^2 + k / m (Weyl; a contact of points of one mass is omega_c^2 m / 2 on
+// both), C <= beta K_springs + c / m.
+double largest_step(const LatticeObject& object, double stiffness, double damping,
+                    LargestStrain strain) {
+  const double gain = strain == LargestStrain::kAny ? square(kMostGainByTurning) : 1.0;
+  const double springs = gain * square(object.spring_frequency);
+  const double contact = square(object.contact_frequency);
+  return safe_step(
+      std::max(springs + contact, kContactsOfAGrain * contact) + stiffness / object.least_mass,
+      gain * object.spring_damping + damping / object.least_mass);
 }
 
-double largest_contact_step(const LatticeObject& object, double stiffness, double damping) {
-  return step_with_springs(object, 0.0, 0.0, stiffness, damping);
+// Stiff springs move the points as one: omega_c is the frequency of the whole on all its contacts.
+double largest_contact_step(const LatticeObject& object) {
+  const double contacts = object.has_loose_points ? kContactsOfAGrain : 1.0;
+  return safe_step(contacts * square(object.contact_frequency), 0.0);
+}
+
+bool is_strained(const Lattice& lattice, std::size_t index) {
+  const LatticeObject& object = lattice.objects[index];
+  for (std::int32_t e = object.edges.begin; e < object.edges.end; ++e) {
+    const std::int32_t active = lattice.active_of_edge[e];
+    if (active < 0 || lattice.active[active].stiffness == 0.0) continue;
+    const Spring& s = lattice.active[active];
+    const Vec3 d = lattice.motion[s.b].position - lattice.motion[s.a].position;
+    const Vec3 w = lattice.motion[s.b].velocity - lattice.motion[s.a].velocity;
+    const double most = kSmallStrain * s.rest_length;
+    if (std::abs(d.norm() - s.rest_length) > most) return true;
+    if (std::abs(w.dot(d)) > most * object.spring_frequency * d.norm()) return true;
+  }
+  return false;
 }
 
 void rebuild_active(Lattice& lattice) {

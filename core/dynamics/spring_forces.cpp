@@ -89,8 +89,14 @@ void SpringForces::append_runs(std::size_t from, std::size_t to, std::vector<Run
   }
 }
 
-SpringForces::Paths SpringForces::paths() const {
-  return {lattice_.active.size() - edges_.size() - scalar_, edges_.size(), scalar_};
+SpringForces::Paths SpringForces::paths() {
+  if (stale_) rebuild();
+  Paths paths;
+  for (std::int32_t e : lattice_.active_edge) {
+    if (lattice_.breaking.edge_broken[e]) continue;
+    ++(is_scalar(e) ? paths.scalar : is_on_grid(e) ? paths.grids : paths.edges);
+  }
+  return paths;
 }
 
 void SpringForces::remove(std::span<const std::int32_t> broken_edges) {

@@ -34,13 +34,13 @@ class SpringForces {
   // Edges that were past a threshold when the forces were added last, ascending.
   std::span<const std::int32_t> overstretched_edges() const { return overstretched_; }
 
-  // Which path the active springs take.
+  // Which path the active springs take that have not broken.
   struct Paths {
     std::size_t grids = 0;   // single precision, owner computes
     std::size_t edges = 0;   // single precision, any topology
     std::size_t scalar = 0;  // double precision
   };
-  Paths paths() const;
+  Paths paths();
 
  private:
   struct Slot {

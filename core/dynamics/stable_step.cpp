@@ -62,6 +62,19 @@ FrequencyBound highest_frequency(const PhysicalModel& model, std::size_t most_en
   return proved ? FrequencyBound{*proved, true} : bound_by_elements(model);
 }
 
+// Springs shorter than half their rest length count as stiff in all directions.
+FrequencyBound large_strain_bound(const PhysicalModel& model) {
+  double shrink = 1.0;
+  for (EdgeId e : ids_of(model.edges)) {
+    const auto [a, b] = model.geometry.edges[e];
+    const double length = (model.geometry.points[b] - model.geometry.points[a]).norm();
+    if (length > 0.0) shrink = std::min(shrink, model.edges[e].rest_length / length);
+  }
+  PhysicalModel folded = model;
+  for (Vec3& x : folded.geometry.points) x *= 0.25 * shrink;
+  return highest_frequency(folded);
+}
+
 double stable_step(double omega_rad_s, double damping_ratio) {
   if (omega_rad_s == 0.0) return std::numeric_limits<double>::infinity();
   // The closed form without its cancellation, which leaves nothing from a ratio of 1e8 on.

@@ -23,6 +23,12 @@ struct FrequencyBound {
 // block_bound.h or element_bound.h.
 FrequencyBound highest_frequency(const PhysicalModel& model, std::size_t most_entries = 3500000);
 
+// The same of every shape that the springs may take, stretched and turned in any way: the tangent
+// stiffness of a spring, k n n^T + k (1 - L0 / L) (I - n n^T), is at most k I. 1 to sqrt(3) times
+// highest_frequency(), and as much as it may come to where the model folds: a cube of axial springs
+// alone shears until they all point one way.
+FrequencyBound large_strain_bound(const PhysicalModel& model);
+
 // Largest stable step of semi-implicit Euler with damping from the old velocities, s:
 // (2 / omega) (sqrt(1 + zeta^2) - zeta). A lattice without springs has no limit: infinity.
 double stable_step(double omega_rad_s, double damping_ratio);

@@ -15,6 +15,11 @@ double depth_of(const Ground& ground, const Vec3& position) {
   return ground.height - ground.normal.dot(position);
 }
 
+// The penalty without its ends: it pulls a point that has left.
+double linear_force(const Ground& ground, double depth, double outward_speed) {
+  return ground.stiffness * depth - ground.damping * outward_speed;
+}
+
 // A point that starts deep in a hard ground would be put onto it at once, and stretch its springs.
 void require_above(const Lattice& lattice, const Ground& ground, std::int32_t p) {
   constexpr double kRounding = 1e-6;  // m
@@ -35,8 +40,7 @@ void GroundContact::resize(std::size_t points) {
   stuck_.resize(points, 1);  // what starts at rest stays so; what slides is found out in a step
 }
 
-void GroundContact::stop_what_enters(Lattice& lattice, const Ground& ground,
-                                     GroundReport& report) {
+void GroundContact::stop_what_enters(Lattice& lattice, const Ground& ground, GroundReport& report) {
   if (!is_hard(ground)) return;
   resize(lattice.motion.size());
   for (std::int32_t p : lattice.dynamic_points) {
@@ -46,9 +50,10 @@ void GroundContact::stop_what_enters(Lattice& lattice, const Ground& ground,
   }
 }
 
-void GroundContact::add_forces(Lattice& lattice, const Ground& ground, double weight) {
+void GroundContact::add_forces(Lattice& lattice, const Ground& ground,
+                               std::span<const std::int32_t> points, double weight) {
   resize(lattice.motion.size());
-  for (std::int32_t p : lattice.dynamic_points) {
+  for (std::int32_t p : points) {
     const PointMotion& motion = lattice.motion[p];
     double push = 0.0;
     if (is_hard(ground)) {
@@ -65,9 +70,39 @@ void GroundContact::add_forces(Lattice& lattice, const Ground& ground, double we
   }
 }
 
+std::span<const PointSupport> GroundContact::support(Lattice& lattice, const Ground& ground,
+                                                     std::span<const std::int32_t> points,
+                                                     double dt) {
+  supports_.clear();
+  if (is_hard(ground)) add_forces(lattice, ground, points, 1.0);
+  if (is_hard(ground)) return {};
+  resize(lattice.motion.size());
+  for (std::int32_t p : points) {
+    const double depth = depth_of(ground, lattice.motion[p].position);
+    const double outward = ground.normal.dot(lattice.motion[p].velocity);
+    const double pull = ground.normal.dot(lattice.force[p]) * lattice.inverse_mass[p];
+    const bool leaves = depth <= (outward + pull * dt) * dt;
+    if (depth <= 0.0 || leaves || lattice.inverse_mass[p] == 0.0) continue;
+    lattice.force[p] += linear_force(ground, depth, outward) * ground.normal;
+    supports_.push_back({p, ground.normal, ground.stiffness, ground.damping});
+  }
+  return supports_;
+}
+
+// Implicit Euler's force is that of the step's end.
+void GroundContact::book_supports(const Lattice& lattice, const Ground& ground) {
+  for (const PointSupport& s : supports_) {
+    const PointMotion& end = lattice.motion[s.point];
+    normal_force_[s.point] =
+        linear_force(ground, depth_of(ground, end.position), ground.normal.dot(end.velocity));
+  }
+  supports_.clear();
+}
+
 void GroundContact::finish_step(Lattice& lattice, const Ground& ground, double dt,
                                 double moved_share, GroundReport& report) {
   resize(lattice.motion.size());
+  book_supports(lattice, ground);
   for (std::int32_t p : lattice.dynamic_points) {
     double normal_impulse = std::exchange(normal_force_[p], 0.0) * dt;
     report.impulse += normal_impulse * ground.normal;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/dynamics/implicit_system.h"
 #include "core/dynamics/lattice.h"
 #include "core/environment/ground.h"
 
@@ -23,9 +25,18 @@ class GroundContact {
   // Before the first step: points that touch a hard ground and move into it are stopped at once.
   void stop_what_enters(Lattice& lattice, const Ground& ground, GroundReport& report);
 
-  // Adds the penalty of each point below the surface; of a hard ground, what it takes to keep the
-  // points that lie on it from moving in. `weight`: the share of this evaluation in the step.
-  void add_forces(Lattice& lattice, const Ground& ground, double weight);
+  // Adds the penalty of each of these points below the surface; of a hard ground, what it takes to
+  // keep the points that lie on it from moving in. `weight`: the share of this evaluation in the
+  // step.
+  void add_forces(Lattice& lattice, const Ground& ground, std::span<const std::int32_t> points,
+                  double weight);
+
+  // The same for points that go by implicit Euler, which follows the penalty through the step, so
+  // that its stiffness does not bound dt (s): adds the force of the start and returns what supports
+  // them, in their order. A point that leaves within the step under the other forces is let go;
+  // all of these have to be in lattice.force.
+  std::span<const PointSupport> support(Lattice& lattice, const Ground& ground,
+                                        std::span<const std::int32_t> points, double dt);
 
   // Ends a step of dt (s): stops what entered a hard ground, then friction, per point: at rest it
   // stays so up to mu_s N dt, else it loses up to mu_k N dt. `moved_share`: how far a change of
@@ -35,6 +46,7 @@ class GroundContact {
 
  private:
   void resize(std::size_t points);
+  void book_supports(const Lattice& lattice, const Ground& ground);
   double stop_at_surface(Lattice& lattice, const Ground& ground, std::int32_t p,
                          GroundReport& report);
   void rub(Lattice& lattice, const Ground& ground, std::int32_t p, double normal_impulse,
@@ -43,6 +55,7 @@ class GroundContact {
   std::vector<double> normal_force_;  // shape (P), N, mean over the step so far
   std::vector<std::uint8_t> held_;    // shape (P): lies on a hard ground
   std::vector<std::uint8_t> stuck_;   // shape (P): static friction holds it
+  std::vector<PointSupport> supports_;
 };
 
 }  // namespace limber

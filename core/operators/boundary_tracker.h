@@ -22,6 +22,7 @@ class BoundaryTracker {
 
   // All external faces, in an order that depends on the order of the breaks.
   const std::vector<std::int32_t>& faces() const { return faces_; }
+  bool contains(std::int32_t face) const { return place_[face] >= 0; }
 
   // Those of one object, ascending and numbered as in its model. `faces`: its share of the indices.
   std::vector<FaceId> faces_of(IdRange<FaceId> faces) const;

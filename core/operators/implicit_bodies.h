@@ -12,30 +12,33 @@ namespace limber {
 // The objects that go by implicit Euler, and what is left for the explicit method.
 class ImplicitBodies {
  public:
-  // `implicit`: may be undone. Takes effect with the next step.
-  void set(std::size_t object, bool implicit);
+  // Takes effect with the next step.
+  void add(std::size_t object);
   bool contains(std::size_t object) const { return object < implicit_.size() && implicit_[object]; }
 
-  // To be told after rebuild_active(), and when springs broke.
-  void topology_changed() { stale_ = true; }
+  // To be told after rebuild_active(), and of edges that broke.
+  void roles_changed() { stale_ = true; }
+  void edges_broken(const Lattice& lattice, std::span<const std::int32_t> edges);
 
-  // Dynamic points of the other objects.
+  // Dynamic points of these objects and of the others.
+  std::span<const std::int32_t> implicit_points(const Lattice& lattice);
   std::span<const std::int32_t> explicit_points(const Lattice& lattice);
 
-  // Moves the dynamic points of these objects on by dt (s) under lattice.force.
-  void step(Lattice& lattice, double dt);
+  // Moves the dynamic points of these objects on by dt (s) under lattice.force; supports ascending
+  // by point.
+  void step(Lattice& lattice, double dt, std::span<const PointSupport> supports);
 
  private:
   struct Body {
-    std::vector<std::int32_t> points;  // dynamic ones, ascending
+    std::size_t first = 0, count = 0;  // of implicit_points_
     ImplicitEuler method;
   };
 
-  void rebuild(const Lattice& lattice);
+  void refresh(const Lattice& lattice);
 
-  std::vector<bool> implicit_;  // shape (objects that were set)
+  std::vector<bool> implicit_;  // shape (objects that were added)
   std::vector<Body> bodies_;    // shape (objects), without points for explicit ones
-  std::vector<std::int32_t> explicit_points_;
+  std::vector<std::int32_t> implicit_points_, explicit_points_;  // ascending
   bool any_ = false;
   bool stale_ = true;
 };

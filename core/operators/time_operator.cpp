@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/dynamics/internal_damping.h"
+#include "core/model/diagnostic_list.h"
 #include "core/model/errors.h"
 #include "core/threads/parallel_for.h"
 
@@ -26,22 +28,44 @@ void for_points(std::span<const std::int32_t> points, const Body& body) {
   });
 }
 
+double shortest_edge(const LatticeObject& object) {  // m
+  double shortest = kUnbreakable;
+  for (const EdgeAttributes& e : object.authored.edges) {
+    shortest = std::min(shortest, e.rest_length);
+  }
+  return shortest;
+}
+
 }  // namespace
 
-double TimeOperator::largest_step(const Environment& environment) const {
+double TimeOperator::largest_step_of(std::size_t index, const Environment& environment) const {
+  const LatticeObject& object = lattice_.objects[index];
+  if (is_implicit(index)) return largest_contact_step(object);
   const bool penalty = environment.ground && std::isfinite(environment.ground->stiffness);
   const double stiffness = penalty ? environment.ground->stiffness : 0.0;
   const double damping = penalty ? environment.ground->damping : 0.0;
+  const bool strained = object.heeds_strain && is_strained(lattice_, index);
+  return limber::largest_step(object, stiffness, damping,
+                              strained ? LargestStrain::kAny : LargestStrain::kSmall);
+}
+
+std::optional<std::size_t> TimeOperator::hardest_object(const Environment& environment) const {
   std::vector<bool> dynamic(lattice_.objects.size(), false);
   for (std::int32_t p : lattice_.dynamic_points) dynamic[lattice_.point_object[p]] = true;
-  double step = kUnbreakable;
+  std::optional<std::size_t> hardest;
+  double least = kUnbreakable;
   for (std::size_t o = 0; o < lattice_.objects.size(); ++o) {
-    if (!dynamic[o]) continue;
-    const LatticeObject& object = lattice_.objects[o];
-    step = std::min(step, is_implicit(o) ? largest_contact_step(object, stiffness, damping)
-                                         : limber::largest_step(object, stiffness, damping));
+    const double step = dynamic[o] ? largest_step_of(o, environment) : kUnbreakable;
+    if (step >= least) continue;
+    least = step;
+    hardest = o;
   }
-  return step;
+  return hardest;
+}
+
+double TimeOperator::largest_step(const Environment& environment) const {
+  const std::optional<std::size_t> hardest = hardest_object(environment);
+  return hardest ? largest_step_of(*hardest, environment) : kUnbreakable;
 }
 
 void TimeOperator::make_implicit(std::size_t object) {
@@ -49,7 +73,7 @@ void TimeOperator::make_implicit(std::size_t object) {
     throw InputError({"time operator", "one object is to be implicit beside a Runge-Kutta method",
                       "use symplectic Euler for the others"});
   }
-  implicit_.set(object, true);
+  implicit_.add(object);
   springs_.keep_in_double(object);
 }
 
@@ -72,7 +96,7 @@ void TimeOperator::require_sound_step(double dt, const Environment& environment,
 
 void TimeOperator::roles_changed() {
   springs_.active_changed();
-  implicit_.topology_changed();
+  implicit_.roles_changed();
   pieces_stale_ = true;
   contacts_stale_ = true;
   faces_stale_ = true;
@@ -88,6 +112,7 @@ const Components& TimeOperator::pieces() {
 StepReport TimeOperator::advance(int substeps, double dt, const Environment& environment,
                                  SubstepCoupling* coupling) {
   require_sound_step(dt, environment, coupling);
+  make_all_implicit();
   StepReport report;
   const double start = time_;
   if (environment.ground) ground_.stop_what_enters(lattice_, *environment.ground, report.ground);
@@ -120,6 +145,8 @@ StepReport TimeOperator::advance(int substeps, double dt, const Environment& env
 }
 
 std::uint64_t TimeOperator::advance_springs_only(int substeps, double dt) {
+  make_all_implicit();
+  supports_ = {};
   for (int n = 0; n < substeps; ++n) {
     apply_gravity(Vec3::Zero());
     springs_.add(dt);
@@ -138,6 +165,7 @@ std::vector<double> TimeOperator::leads(double dt) const {
 
 void TimeOperator::refresh_contacts() {
   contacts_.refresh(lattice_, pieces(), contacts_stale_, carried_stale_);
+  surface_contacts_.refresh(lattice_, pieces(), contacts_stale_, carried_stale_);
   contacts_stale_ = carried_stale_ = false;
 }
 
@@ -159,13 +187,18 @@ void TimeOperator::sum_forces(const Environment& environment, double time, doubl
   apply_gravity(environment.gravity);
   springs_.add(dt);
   contacts_.add_forces(lattice_);
+  surface_contacts_.add_forces(lattice_, dt);
   if (environment.air) {
     add_face_forces(faces_, *environment.air, time, lattice_.motion, lattice_.force);
   }
   for (std::size_t i = 0; i < coupling_force_.size(); ++i) {
     lattice_.force[lattice_.dynamic_points[i]] += coupling_force_[i];
   }
-  if (environment.ground) ground_.add_forces(lattice_, *environment.ground, weight);
+  supports_ = {};
+  if (!environment.ground) return;
+  ground_.add_forces(lattice_, *environment.ground, implicit_.explicit_points(lattice_), weight);
+  supports_ =
+      ground_.support(lattice_, *environment.ground, implicit_.implicit_points(lattice_), dt);
 }
 
 void TimeOperator::step_symplectic(const Environment& environment, double dt,
@@ -176,19 +209,19 @@ void TimeOperator::step_symplectic(const Environment& environment, double dt,
 }
 
 void TimeOperator::integrate(double dt) {
-  if (integrator_ == Integrator::kImplicitEuler) make_all_implicit();
   for_points(implicit_.explicit_points(lattice_), [&](std::int32_t p) {
     PointMotion& motion = lattice_.motion[p];
     motion.velocity += lattice_.force[p] * (dt * lattice_.inverse_mass[p]);
     motion.position += motion.velocity * dt;
   });
-  implicit_.step(lattice_, dt);
+  implicit_.step(lattice_, dt, supports_);
 }
 
-// Objects may have been added.
+// Of an implicit operator. Objects may have been added.
 void TimeOperator::make_all_implicit() {
+  if (integrator_ != Integrator::kImplicitEuler) return;
   for (std::size_t o = 0; o < lattice_.objects.size(); ++o) {
-    if (!implicit_.contains(o)) implicit_.set(o, true);
+    if (!implicit_.contains(o)) implicit_.add(o);
   }
 }
 
@@ -253,7 +286,7 @@ void TimeOperator::break_overstretched(StepReport& report) {
   break_edges(lattice_.topology, lattice_.breaking, edges, broken_);
   slacken(lattice_, broken_.broken_edges);
   springs_.remove(broken_.broken_edges);
-  implicit_.topology_changed();
+  implicit_.edges_broken(lattice_, broken_.broken_edges);
   slack_ += broken_.broken_edges.size();
   report.broken_edges += broken_.broken_edges.size();
   if (boundary_) boundary_->update(lattice_.topology, broken_);
@@ -264,6 +297,7 @@ void TimeOperator::break_overstretched(StepReport& report) {
     event.piece = pieces_.components().label[lattice_.springs[event.edge].a];
   }
   contacts_.edges_broken(lattice_, broken_.broken_edges);
+  surface_contacts_.edges_broken();
   contacts_stale_ = contacts_stale_ || !splits.empty();
   faces_stale_ = true;
 }
@@ -295,13 +329,27 @@ void TimeOperator::sample_load() {
 void TimeOperator::require_finite() const {
   for (std::int32_t p : lattice_.dynamic_points) {
     const PointMotion& motion = lattice_.motion[p];
-    if (motion.position.allFinite() && motion.velocity.allFinite()) continue;
-    const LatticeObject& object = lattice_.objects[lattice_.point_object[p]];
-    throw SimulationError(
-        {object.authored.name + ": point " + std::to_string(p - object.points.begin),
-         "its position or velocity is no longer finite",
-         "use a smaller step (step scale below 1) or softer springs"});
+    if (!motion.position.allFinite() || !motion.velocity.allFinite()) throw blown_up(p);
   }
+}
+
+// Too large a step, or places so far out that neighbours cannot be told apart.
+SimulationError TimeOperator::blown_up(std::int32_t point) const {
+  constexpr double kLeastPlaces = 1e4;  // along the shortest edge
+  const LatticeObject& object = lattice_.objects[lattice_.point_object[point]];
+  const std::string where =
+      object.authored.name + ": point " + std::to_string(point - object.points.begin);
+  const std::string what = "its position or velocity is no longer finite";
+  const double distance = lattice_.authored_position[point].norm();
+  const double apart = distance * std::numeric_limits<double>::epsilon();
+  if (kLeastPlaces * apart < shortest_edge(object)) {
+    return SimulationError(
+        {where, what, "use a smaller step (step scale below 1) or softer springs"});
+  }
+  return SimulationError({where,
+                          what + say("; it started ", distance,
+                                     " m from the origin, where places are ", apart, " m apart"),
+                          "move the scene to the origin"});
 }
 
 }  // namespace limber

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/contact/point_contacts.h"
+#include "core/contact/surface_contacts.h"
 #include "core/dynamics/component_tracker.h"
 #include "core/dynamics/lattice.h"
 #include "core/dynamics/runge_kutta.h"
@@ -10,6 +12,7 @@
 #include "core/environment/environment.h"
 #include "core/environment/face_forces.h"
 #include "core/environment/ground_contact.h"
+#include "core/model/errors.h"
 #include "core/operators/boundary_tracker.h"
 #include "core/operators/implicit_bodies.h"
 
@@ -63,7 +66,8 @@ enum class Integrator {
 // motion, and the load on the springs is sampled into lattice.peak_load.
 //
 // Objects may be integrated by implicit Euler while the others go by the operator's own method:
-// their springs then do not bound the step. Contacts, ground and air act on them as on the others.
+// neither their springs nor the stiffness of a penalty ground bound the step then. Contacts with
+// points and bodies and the air act on them explicitly, as on the others.
 //
 // Pinned points stay where they are; lattice.force holds what they carry. Runge-Kutta methods
 // evaluate the coupling once a substep, everything else at every stage; they do not know carried
@@ -77,17 +81,22 @@ class TimeOperator {
         springs_(lattice,
                  integrator == Integrator::kImplicitEuler ? SpringPrecision::kDouble : precision) {}
 
-  // Integrates this object, an index of lattice.objects, by implicit Euler, and sums its springs in
-  // double precision: the method has springs of its own, and what two precisions differ by would
-  // push a stiff body from outside. Throws InputError in
-  // an operator of another method than symplectic or implicit Euler.
+  // Integrates this object, an index of lattice.objects, by implicit Euler from now on, and sums
+  // its springs in double precision: the method has springs of its own, and what two precisions
+  // differ by would push a stiff body from outside. Throws InputError in an operator of another
+  // method than symplectic or implicit Euler.
   void make_implicit(std::size_t object);
   bool is_implicit(std::size_t object) const;
 
   // Largest step of symplectic Euler that is stable for every object with a dynamic point in this
   // environment, s; infinity without springs or anything else that pushes. Of implicit objects only
-  // contacts count. Drag is left out: it has to be faster than a substep to matter.
+  // contacts with points and bodies count. Drag is left out: it has to be faster than a substep to
+  // matter. Goes by the strains of the moment: ask again as a simulation goes on.
   double largest_step(const Environment& environment = kEmptySpace) const;
+  double largest_step_of(std::size_t object, const Environment& environment = kEmptySpace) const;
+
+  // Which object that is; none where nothing bounds the step.
+  std::optional<std::size_t> hardest_object(const Environment& environment = kEmptySpace) const;
 
   // The clock that wind and events go by, s. Starts at 0, runs in advance().
   double time() const { return time_; }
@@ -139,11 +148,13 @@ class TimeOperator {
   BreakEvent event_of(std::int32_t edge) const;
   void sample_load();
   void require_finite() const;
+  SimulationError blown_up(std::int32_t point) const;
 
   Lattice& lattice_;
   Integrator integrator_;
   double time_ = 0.0;
   PointContacts contacts_;
+  SurfaceContacts surface_contacts_;
   GroundContact ground_;
   std::vector<DragFace> faces_;  // that feel the air
   ComponentTracker pieces_;
@@ -159,6 +170,7 @@ class TimeOperator {
   std::size_t slack_ = 0;   // active springs that broke since the last rebuild
 
   ImplicitBodies implicit_;
+  std::span<const PointSupport> supports_;  // of ground_, for the present step
 
   // Runge-Kutta: shape (dynamic points), or (stages, dynamic points)
   std::vector<PointMotion> start_;

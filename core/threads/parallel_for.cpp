@@ -4,7 +4,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <exception>
+#include <limits>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "core/model/errors.h"
@@ -14,6 +17,32 @@ namespace {
 
 int thread_count = 1;
 std::unique_ptr<tbb::task_arena> arena;  // none for one thread
+
+// Which of several exceptions is told must not depend on timing: the one of the lowest range, and
+// no range is left out for another's.
+class LowestFailure {
+ public:
+  template <class Body>
+  void guard(std::size_t range, const Body& body) {
+    try {
+      body();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (range < range_) {
+        range_ = range;
+        failure_ = std::current_exception();
+      }
+    }
+  }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t range_ = std::numeric_limits<std::size_t>::max();
+  std::exception_ptr failure_;
+};
 
 }  // namespace
 
@@ -34,12 +63,13 @@ void parallel_for(std::size_t count, std::size_t grain, RangeBody body) {
     return;
   }
   const std::size_t ranges = (count + grain - 1) / grain;
-  arena->execute([&] {
-    tbb::parallel_for(
-        std::size_t{0}, ranges,
-        [&](std::size_t r) { body(r * grain, std::min(count, (r + 1) * grain)); },
-        tbb::static_partitioner());
-  });
+  LowestFailure failure;
+  const auto run = [&](std::size_t r) {
+    failure.guard(r, [&] { body(r * grain, std::min(count, (r + 1) * grain)); });
+  };
+  arena->execute(
+      [&] { tbb::parallel_for(std::size_t{0}, ranges, run, tbb::static_partitioner()); });
+  failure.rethrow();
 }
 
 }  // namespace limber

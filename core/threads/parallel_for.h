@@ -28,7 +28,8 @@ class RangeBody {
 
 // Runs body over [0, count), in ranges of `grain` that begin at multiples of it, each once and in
 // any order. What is no larger than two grains runs at once and in place: make a grain worth 20
-// microseconds, ten times what waking a thread takes.
+// microseconds, ten times what waking a thread takes. Of what ranges throw the caller gets that of
+// the lowest one.
 void parallel_for(std::size_t count, std::size_t grain, RangeBody body);
 
 }  // namespace limber

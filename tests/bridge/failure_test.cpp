@@ -67,22 +67,6 @@ TEST(Failure, OfTooManySubstepsNamesTheObjectThatNeedsThem) {
   EXPECT_EQ(simulation.failure()->where, "stiff one");
 }
 
-TEST(Failure, AtAConcaveShapeIsToldAndTheBodyThawedThereIsGone) {
-  World world;
-  btTriangleMesh mesh;
-  mesh.addTriangle(btVector3(-5, 0, -5), btVector3(5, 0, -5), btVector3(0, 0, 5));
-  world.add(std::make_unique<btBvhTriangleMeshShape>(&mesh, true), 0.0, Vec3::Zero());
-  {
-    CoSimulation simulation(*world);
-    simulation.add(soft_block("falling one", {0.0, 0.5, 0.0}, {0.0, -5.0, 0.0}));
-    world.run(0.2, kTick);
-    ASSERT_TRUE(simulation.failure());
-    EXPECT_NE(simulation.failure()->what.find("concave"), std::string::npos);
-    expect_world_goes_on(world);
-  }
-  EXPECT_EQ(world->getNumCollisionObjects(), 2);  // the mesh and the box
-}
-
 TEST(Settings, OutOfRangeAreRefused) {
   World world;
   const double nan = std::nan("");

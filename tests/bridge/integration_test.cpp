@@ -96,5 +96,36 @@ TEST(Integration, ImplicitFallsLikeExplicit) {
   EXPECT_NEAR(a.x(), b.x(), 1e-6);
 }
 
+// Each object by its own method, whatever the settings say.
+TEST(Integration, IsChosenPerObject) {
+  World world;
+  world.add_ground();
+  CoSimulation simulation(*world, flexible(Integration::kExplicit, 2000));
+  PhysicalModel anvil = make_block({.modulus = 2e11}, {0.0, 0.3, 0.0});
+  anvil.name = "anvil";
+  simulation.add(make_block({.modulus = 2e6}, {2.0, 0.3, 0.0}));
+  simulation.add(anvil, Integration::kImplicit);
+  world.run(0.5, kTick);
+  ASSERT_FALSE(simulation.failure()) << simulation.failure()->text();
+  EXPECT_TRUE(simulation.notes().empty());
+  EXPECT_LT(centre_of_mass(simulation.model(1)).y(), 0.2);  // on the floor
+}
+
+// Neither the implicit one, which is stiffer, nor what would not help is named.
+TEST(Integration, RefusalNamesTheExplicitOneThatIsTooStiff) {
+  World world;
+  CoSimulation simulation(*world, flexible(Integration::kImplicit, 500));
+  PhysicalModel anvil = make_block({.modulus = 2e12}, {0.0, 2.0, 0.0});
+  PhysicalModel spring = make_block({.modulus = 2e11}, {5.0, 2.0, 0.0});
+  anvil.name = "anvil";
+  spring.name = "bar";
+  simulation.add(anvil);
+  simulation.add(spring, Integration::kExplicit);
+  world.run(0.1, kTick);
+  ASSERT_TRUE(simulation.failure());
+  EXPECT_EQ(simulation.failure()->where, "bar");
+  EXPECT_THAT(simulation.failure()->remedy, HasSubstr("implicitly"));
+}
+
 }  // namespace
 }  // namespace limber::bullet::test

@@ -62,6 +62,34 @@ TEST(PointGrid, PairsCoincidentPoints) {
   EXPECT_EQ(by_grid({Vec3(1, 2, 3), Vec3(1, 2, 3), Vec3(9, 9, 9)}, 0.1), std::set<Pair>({{0, 1}}));
 }
 
+// Every point of the box, some around it, none twice.
+TEST(PointGrid, FindsThePointsAroundABox) {
+  std::mt19937 random(22);
+  constexpr double kCell = 0.3;
+  std::vector<Vec3> points;
+  for (int i = 0; i < 300; ++i) points.push_back(test::random_vector(random, 1.0));
+  const PointGrid grid(points, kCell);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Vec3 a = test::random_vector(random, 1.0), b = test::random_vector(random, 1.0);
+    const Vec3 low = a.cwiseMin(b), high = a.cwiseMax(b);
+    std::multiset<std::int32_t> found;
+    grid.for_each_around(low, high, [&](std::int32_t i) { found.insert(i); });
+    for (std::int32_t i = 0; i < 300; ++i) {
+      const Vec3& x = points[static_cast<std::size_t>(i)];
+      const auto within = [&](double by) {
+        return ((x - low).array() >= -by).all() && ((high - x).array() >= -by).all();
+      };
+      EXPECT_LE(found.count(i), 1u);
+      if (within(0.0)) {
+        EXPECT_EQ(found.count(i), 1u);
+      }
+      if (!within(kCell)) {
+        EXPECT_EQ(found.count(i), 0u);
+      }
+    }
+  }
+}
+
 TEST(PointGrid, OfNoPointsHasNoPairs) { EXPECT_TRUE(by_grid({}, 1.0).empty()); }
 
 }  // namespace

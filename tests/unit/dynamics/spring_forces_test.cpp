@@ -297,5 +297,20 @@ TEST(SpringForces, BrokenSpringsStayBrokenWhenAnotherObjectChangesItsPath) {
   }
 }
 
+// Broken springs take no path, however they did before; keep_in_double() changes paths at once.
+TEST_P(Precisions, CountTheSpringsThatAreLeft) {
+  Lattice lattice = disturbed({box({5, 5, 5})}, 3);
+  SpringForces springs(lattice, GetParam());
+  const auto sum = [](const SpringForces::Paths& p) { return p.grids + p.edges + p.scalar; };
+  EXPECT_EQ(sum(springs.paths()), lattice.active.size());
+  const std::vector<std::int32_t> edges = {0, 7, 20};
+  for (std::int32_t e : edges) lattice.breaking.edge_broken[e] = true;
+  slacken(lattice, edges);
+  springs.remove(edges);
+  EXPECT_EQ(sum(springs.paths()), lattice.active.size() - edges.size());
+  springs.keep_in_double(0);
+  EXPECT_EQ(springs.paths().scalar, lattice.active.size() - edges.size());
+}
+
 }  // namespace
 }  // namespace limber

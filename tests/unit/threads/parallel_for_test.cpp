@@ -101,6 +101,23 @@ TEST_P(ParallelFor, PassesAnExceptionOnAndRunsOnAfterwards) {
   }
 }
 
+// And every range runs.
+TEST_P(ParallelFor, PassesOnTheExceptionOfTheLowestRange) {
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    std::atomic<int> ranges = 0;
+    try {
+      parallel_for(1000, 10, [&](std::size_t from, std::size_t) {
+        ++ranges;
+        if (from >= 370 || GetParam() == 1) throw std::runtime_error(std::to_string(from));
+      });
+      FAIL();
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), GetParam() == 1 ? "0" : "370");
+      EXPECT_EQ(ranges, GetParam() == 1 ? 1 : 100);
+    }
+  }
+}
+
 TEST_P(ParallelFor, RunsInsideOfItself) {
   constexpr std::size_t kRows = 50, kColumns = 70;
   std::vector<std::atomic<int>> visits(kRows * kColumns);

@@ -3,47 +3,30 @@
 #include <cmath>
 #include <vector>
 
-#include "bullet_bridge/precision.h"
-#include "core/model/vec3.h"
+#include "bullet_bridge/shapes/contact_part.h"
 
 class btCollisionShape;
-class btConvexShape;
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
-
-// How deep a point lies in a shape.
-struct Penetration {
-  double depth = 0.0;  // m, negative outside
-  Vec3 normal;         // unit, out of the shape
-};
-
-// One convex part of a collision shape, asked for single points. Boxes, spheres and planes are
-// analytic; any other convex shape goes through Bullet's own query (about 2 us a point).
-struct ContactPart {
-  enum class Kind { kBox, kSphere, kPlane, kConvex };
-  Kind kind;
-  Vec3 half_extents;          // box, m
-  double radius = 0.0;        // sphere, m
-  Vec3 plane_normal;          // plane: n . x = offset
-  double plane_offset = 0.0;  // m
-  const btConvexShape* convex = nullptr;
-  Vec3 position = Vec3::Zero();  // of the part in the frame of the whole shape, m
-  Mat3 rotation = Mat3::Identity();
-  bool rotated = false;  // spares most parts a matrix product
-
-  Vec3 to_part_frame(const Vec3& point) const {
-    if (!rotated) return point - position;
-    return rotation.transpose() * (point - position);
-  }
-};
 
 // The parts of a shape; compounds are flattened. Throws SimulationError for concave shapes, which
 // this version cannot collide with lattices.
 std::vector<ContactPart> contact_parts(const btCollisionShape& shape);
 
-// The part as it is when the whole shape is placed at a pose.
-ContactPart placed(ContactPart part, const Vec3& position, const Mat3& rotation);
+class ShapeCache;
+
+// The parts of a shape that may be met in a tick: those that reach into the box from `low` to
+// `high` (in the frame of the shape, m), ascending by id; of meshes and height fields the triangles
+// there. To be called once a tick. Dear data (planes of hulls) come from the cache. Throws
+// SimulationError for shapes that Bullet itself cannot collide with, and for its distance fields
+// from files.
+std::vector<ContactPart> contact_parts(const btCollisionShape& shape, const Vec3& low,
+                                       const Vec3& high, ShapeCache& cache);
+
+// May the point (in the frame of the whole shape) touch the part after a way of `reach`? By bounds
+// alone; infinitely many points of a plane are told apart by their distance.
+bool within_reach(const ContactPart& part, const Vec3& point, double reach);
 
 // `point` in the frame of the whole shape, m.
 Penetration penetration(const ContactPart& part, const Vec3& point);
@@ -61,10 +44,9 @@ inline bool contains(const ContactPart& part, const Vec3& point) {
       return local.squaredNorm() <= part.radius * part.radius;
     case ContactPart::Kind::kPlane:
       return part.plane_normal.dot(local) <= part.plane_offset;
-    case ContactPart::Kind::kConvex:
-      break;
+    default:
+      return penetration(part, point).depth >= 0.0;
   }
-  return penetration(part, point).depth >= 0.0;
 }
 
 // Of a box centred at the origin: inside, the way out through the nearest side.

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "bullet_bridge/lattice_surface.h"
+#include "bullet_bridge/shadow_body.h"
+#include "bullet_bridge/shapes/contact_shape.h"
+#include "bullet_bridge/shapes/point_track.h"
+#include "core/contact/friction_spring.h"
+#include "core/contact/passive_contact.h"
+#include "core/contact/penalty.h"
+#include "core/dynamics/lattice.h"
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+
+// A place of a lattice: a point, or one on a face between its corners.
+struct LatticePlace {
+  std::array<std::int32_t, 3> points;
+  Vec3 weights;  // barycentric; the first one alone for a point
+
+  Vec3 position(const Lattice& lattice) const;
+  Vec3 velocity(const Lattice& lattice) const;
+  double inverse_mass(const Lattice& lattice) const;  // 1/kg, for a force at this place
+  void add_force(Lattice& lattice, const Vec3& force) const;
+};
+
+// What may have come near a body until candidates are listed the next time.
+struct ListingReach {
+  double least = 0.0;  // m, whatever the point does
+  double time = 0.0;   // s, at the point's own speed
+};
+
+// A body of Bullet's world as the lattice meets it in one tick: points, and faces between them,
+// against the parts of its shape. Each pair remembers through which side it came in, from tick to
+// tick; nothing that came in on one side leaves on another.
+class Obstacle {
+ public:
+  // `low`, `high`: the box in the world, m, outside of which nothing will meet it in this tick.
+  Obstacle(const btCollisionObject& object, int shadow, const ShadowBody& body,
+           const Lattice& lattice, const Vec3& low, const Vec3& high, ShapeCache& cache);
+
+  const btCollisionObject& object() const { return *object_; }
+  int shadow() const { return shadow_; }
+
+  // Takes over what pairs of the last tick remember of the same body.
+  void remember(Obstacle&& last_tick);
+
+  // Lists the pairs that may touch until the next listing.
+  void list(const Lattice& lattice, const LatticeSurface& surface, const ShadowBody& body,
+            const ListingReach& reach);
+
+  // Adds the forces of all pairs that touch, equal and opposite, to points and shadow.
+  void press(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body, double dt);
+
+ private:
+  // Of a place and a part.
+  struct Pair {
+    std::int32_t of;    // point, or face
+    std::int32_t part;  // its id
+    std::size_t place;  // of the part in parts_
+    PointTrack track;
+    double offset;         // m of penetration that was there when the pair was first seen
+    LatticePlace pressed;  // in the last substep, if its books have an impulse
+    Vec3 normal;           // along which, world
+    PassiveContact books;
+    FrictionSpring friction;
+
+    void let_go();
+  };
+  struct FacePair : Pair {
+    std::array<std::int32_t, 3> corners = {-1, -1, -1};
+    Mat3 last;  // the corners a substep ago, as columns in the obstacle's frame, m
+    bool sheet = false;
+  };
+
+  Vec3 to_frame(const ShadowBody& body, const Vec3& point) const;
+  Mat3 corners_in_frame(const Lattice& lattice, const ShadowBody& body,
+                        const std::array<std::int32_t, 3>& corners) const;
+  Vec3 direction_to_frame(const ShadowBody& body, const Vec3& direction) const;
+  template <class P>
+  P known_or_new(const std::vector<P>& old, std::int32_t of, std::size_t place,
+                 const Vec3& local) const;
+  void list_points(const Lattice& lattice, const ShadowBody& body, const ListingReach& reach);
+  void list_faces(const Lattice& lattice, const LatticeSurface& surface, const ShadowBody& body,
+                  const ListingReach& reach);
+  void press_point(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body, Pair& pair,
+                   double dt);
+  void press_face(Lattice& lattice, ShadowBody& body, FacePair& pair, double dt);
+  Penetration meet(Pair& pair, const Vec3& now, const Vec3& outwards, bool two_sided) const;
+  PenaltyContact law_at(const Lattice& lattice, std::int32_t point, double dt) const;
+  double effective_mass(const Lattice& lattice, const ShadowBody& body, const LatticePlace& place,
+                        const Vec3& normal) const;
+  void push(Lattice& lattice, ShadowBody& body, Pair& pair, const LatticePlace& place,
+            const Penetration& contact, double dt);
+
+  const btCollisionObject* object_;
+  int shadow_;
+  bool at_rest_;                      // immovable and not moving: parts are in world coordinates
+  std::vector<ContactPart> parts_;    // otherwise in the body's frame
+  std::vector<PenaltyContact> laws_;  // against each object of the lattice
+  std::vector<Pair> points_;          // ascending by (of, part)
+  std::vector<FacePair> faces_;       // ascending by (of, part)
+  int sharers_ = 1;                   // contacts that pushed the body in the last substep
+  int pushed_ = 0;                    // in this one
+};
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

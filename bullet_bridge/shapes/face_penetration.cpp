@@ -1,0 +1,101 @@
+#include "bullet_bridge/shapes/face_penetration.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace limber::bullet {
+inline namespace LIMBER_BULLET_PRECISION {
+namespace {
+
+// Boxes and hulls need up to 6, round parts one for every digit of the depth.
+constexpr std::size_t kMostCuts = 16;
+
+// A bound on the depth over the face: depth <= values . weights.
+struct Cut {
+  Vec3 values;  // m, at the corners
+};
+
+struct Maximum {
+  Vec3 weights = Vec3::UnitX();
+  double bound = -1e300;  // m
+};
+
+// The least of all bounds, as a function of the weights, and where that is highest.
+class DepthBound {
+ public:
+  // Where the new cut takes the present maximum away, it is active at the next one, together with
+  // two of the other cuts and of the sides of the face.
+  void add(const Cut& cut) {
+    cuts_[count_++] = cut;
+    Maximum best;
+    const std::size_t others = count_ + 2;  // 3 sides, then all cuts but the new one
+    for (std::size_t i = 0; i < others; ++i) {
+      for (std::size_t j = i + 1; j < others; ++j) improve(best, cut, i, j);
+    }
+    if (count_ > 1) consider(best, maximum_.weights);
+    maximum_ = best;
+  }
+  const Maximum& maximum() const { return maximum_; }
+  bool full() const { return count_ == kMostCuts; }
+
+ private:
+  // Where the new cut equals another one, or a weight is zero: weights on which this row vanishes.
+  Vec3 row(const Cut& cut, std::size_t k) const {
+    if (k < 3) return Vec3::Unit(static_cast<Eigen::Index>(k));
+    return cut.values - cuts_[k - 3].values;
+  }
+
+  void improve(Maximum& best, const Cut& cut, std::size_t i, std::size_t j) const {
+    const Vec3 direction = row(cut, i).cross(row(cut, j));
+    const double sum = direction.sum();
+    if (sum == 0.0) return;
+    const Vec3 weights = direction / sum;
+    if (weights.minCoeff() >= -1e-12) consider(best, weights);
+  }
+
+  void consider(Maximum& best, const Vec3& weights) const {
+    double bound = 1e300;
+    for (std::size_t k = 0; k < count_; ++k) {
+      bound = std::min(bound, cuts_[k].values.dot(weights));
+    }
+    if (bound > best.bound) best = {weights, bound};
+  }
+
+  std::array<Cut, kMostCuts> cuts_;
+  std::size_t count_ = 0;
+  Maximum maximum_;
+};
+
+// What a look at one place tells: depth <= (depth + normal . place) - normal . anywhere.
+Cut cut_at(const Penetration& here, const Vec3& place, const Mat3& corners) {
+  const double level = here.depth + here.normal.dot(place);
+  return {Vec3::Constant(level) - corners.transpose() * here.normal};
+}
+
+}  // namespace
+
+FacePenetration deepest_place(const ContactPart& part, const Mat3& corners, double tolerance_m) {
+  std::array<Penetration, 3> at;
+  FacePenetration deepest{Vec3::UnitX(), -1e300};
+  for (int i = 0; i < 3; ++i) {
+    at[i] = penetration(part, corners.col(i));
+    if (at[i].depth > deepest.depth) deepest = {Vec3::Unit(i), at[i].depth};
+  }
+  // In front of one side the depth is linear: the most frequent case by far.
+  if (at[0].normal == at[1].normal && at[0].normal == at[2].normal) return deepest;
+  DepthBound bound;
+  for (int i = 0; i < 3; ++i) bound.add(cut_at(at[i], corners.col(i), corners));
+  while (!bound.full() && bound.maximum().bound > deepest.depth + tolerance_m) {
+    if (bound.maximum().bound <= 0.0) return {bound.maximum().weights, bound.maximum().bound};
+    const Vec3 weights = bound.maximum().weights.cwiseMax(0.0);
+    const Vec3 place = corners * weights;
+    const Penetration here = penetration(part, place);
+    if (here.depth > deepest.depth) deepest = {weights, here.depth};
+    bound.add(cut_at(here, place, corners));
+  }
+  return deepest;
+}
+
+}  // namespace LIMBER_BULLET_PRECISION
+}  // namespace limber::bullet

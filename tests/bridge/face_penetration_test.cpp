@@ -1,0 +1,100 @@
+#include "bullet_bridge/shapes/face_penetration.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/bridge/world.h"
+
+namespace limber::bullet::test {
+namespace {
+
+constexpr double kTolerance = 1e-5;  // m
+
+// The deepest of many places all over the face: never deeper than the deepest.
+double sampled_depth(const ContactPart& part, const Mat3& corners, int places) {
+  double depth = -1e300;
+  for (int i = 0; i <= places; ++i) {
+    for (int j = 0; i + j <= places; ++j) {
+      const Vec3 weights = Vec3(i, j, places - i - j) / places;
+      depth = std::max(depth, penetration(part, corners * weights).depth);
+    }
+  }
+  return depth;
+}
+
+Mat3 random_face(std::mt19937& engine, double size) {
+  std::uniform_real_distribution<double> anywhere(-size, size);
+  return Mat3::NullaryExpr([&] { return anywhere(engine); });
+}
+
+void expect_deepest(const btCollisionShape& shape) {
+  std::mt19937 engine(1);
+  const ContactPart part = contact_parts(shape).at(0);
+  int inside = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Mat3 corners = random_face(engine, 0.7);
+    const FacePenetration found = deepest_place(part, corners, kTolerance);
+    const double sampled = sampled_depth(part, corners, 40);
+    ASSERT_GE(found.weights.minCoeff(), -1e-12);
+    ASSERT_NEAR(found.weights.sum(), 1.0, 1e-12);
+    if (sampled <= 0.0) continue;
+    ++inside;
+    ASSERT_GE(found.depth, sampled - 20.0 * kTolerance);  // round parts end at the most cuts
+    ASSERT_NEAR(penetration(part, corners * found.weights).depth, found.depth, 1e-12);
+  }
+  EXPECT_GT(inside, 300);
+}
+
+TEST(FacePenetration, FindsTheDeepestPlaceInABox) {
+  expect_deepest(btBoxShape(btVector3(btScalar(0.3), btScalar(0.5), btScalar(0.2))));
+}
+
+TEST(FacePenetration, FindsTheDeepestPlaceInASphere) {
+  expect_deepest(btSphereShape(btScalar(0.3)));
+}
+
+// A rod of 2 cm across a face of a metre whose corners are far from it.
+TEST(FacePenetration, SeesARodBetweenThePoints) {
+  const btBoxShape rod(btVector3(btScalar(0.01), btScalar(0.01), 5));
+  Mat3 corners;
+  corners.col(0) = Vec3(-0.4, 0.004, -0.3);
+  corners.col(1) = Vec3(0.6, 0.004, -0.3);
+  corners.col(2) = Vec3(0.1, 0.004, 0.7);
+  const ContactPart part = contact_parts(rod).at(0);
+  const FacePenetration found = deepest_place(part, corners, kTolerance);
+  EXPECT_NEAR(found.depth, 0.006, 1e-6);
+  for (int i = 0; i < 3; ++i) EXPECT_LT(penetration(part, corners.col(i)).depth, -0.05);
+}
+
+// A corner of a box sticks 1 cm through the middle of a face. It is cut in a regular triangle; by
+// the symmetry of the three sides the deepest place is its centre, 1 cm / sqrt(3) from each.
+TEST(FacePenetration, SeesACornerThroughTheMiddle) {
+  const btBoxShape box(btVector3(1, 1, 1));
+  const Vec3 diagonal = Vec3::Ones().normalized();
+  const Vec3 across = diagonal.unitOrthogonal();
+  const Vec3 middle = Vec3::Ones() - 0.01 * diagonal;
+  Mat3 corners;
+  for (int i = 0; i < 3; ++i) {
+    corners.col(i) =
+        middle + 0.5 * (Eigen::AngleAxisd(2.0 * i * EIGEN_PI / 3.0, diagonal) * across);
+  }
+  const FacePenetration found = deepest_place(contact_parts(box).at(0), corners, kTolerance);
+  EXPECT_NEAR(found.depth, 0.01 / std::sqrt(3.0), 1e-6);
+  EXPECT_LT((found.weights - Vec3::Constant(1.0 / 3.0)).norm(), 1e-4);
+}
+
+TEST(FacePenetration, OfAFaceThatEntersWithACornerIsThatCorner) {
+  const btBoxShape box(btVector3(1, 1, 1));
+  Mat3 corners;
+  corners.col(0) = Vec3(0.0, 1.5, 0.0);
+  corners.col(1) = Vec3(0.1, 0.9, 0.0);
+  corners.col(2) = Vec3(0.5, 1.5, 0.4);
+  const FacePenetration found = deepest_place(contact_parts(box).at(0), corners, kTolerance);
+  EXPECT_EQ(found.weights, Vec3::UnitY());
+  EXPECT_NEAR(found.depth, 0.1, 1e-6);
+}
+
+}  // namespace
+}  // namespace limber::bullet::test
