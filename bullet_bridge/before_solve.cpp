@@ -88,7 +88,7 @@ bool CoSimulation::Impl::material_meets(Piece& piece, const btCollisionObject& o
   const auto partner = piece_of_.find(&other);
   if (partner == piece_of_.end()) {
     return touch.gap <= 0.0 || !other.getCollisionShape()->isConvex() ||
-           points_reach(piece.proxy->body(), piece.proxy->local(), other, dt);
+           points_reach(piece.proxy->body(), piece.proxy->local(), other, dt, shapes_);
   }
   piece.proxy->write_points(lattice_, piece.points);
   partner->second->proxy->write_points(lattice_, partner->second->points);

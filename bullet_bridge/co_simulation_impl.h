@@ -11,6 +11,7 @@
 #include "bullet_bridge/contact_solver.h"
 #include "bullet_bridge/debris.h"
 #include "bullet_bridge/piece.h"
+#include "bullet_bridge/shapes/shape_cache.h"
 #include "bullet_bridge/solver_decorator.h"
 #include "bullet_bridge/touch_prediction.h"
 #include "core/operators/time_operator.h"
@@ -48,6 +49,7 @@ class CoSimulation::Impl : public TickHooks {
   Environment environment_;
   BoundaryTracker boundary_;
   ContactSolver contacts_;
+  ShapeCache shapes_;  // of what rigid pieces are about to touch
   Debris debris_;
   std::vector<std::unique_ptr<Piece>> pieces_;                     // ascending by id
   std::unordered_map<const btCollisionObject*, Piece*> piece_of_;  // look-ups only

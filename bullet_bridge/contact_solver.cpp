@@ -21,7 +21,8 @@ constexpr double kPushShare = 0.25;
 constexpr double kListMargin = 1e-3;  // m
 
 Vec3 gravity_of(const ShadowBody& shadow) {
-  return shadow.movable() ? from_bullet(shadow.body->getGravity()) : Vec3(Vec3::Zero());
+  if (!shadow.movable()) return Vec3::Zero();
+  return shadow.linear_factor.cwiseProduct(from_bullet(shadow.body->getGravity()));
 }
 
 // m/s, of any point of the body.
@@ -41,6 +42,7 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const Lattice& la
                                std::span<const CarriedPiece> carried, double tick) {
   shadows_.clear();
   boundary_ = &boundary;
+  surface_ = {};  // other points may have become flexible
   std::vector<Obstacle> last_tick = std::exchange(obstacles_, {});
   carried_.assign(carried.begin(), carried.end());
   carried_shadow_.clear();
@@ -77,7 +79,7 @@ void ContactSolver::list_pairs(const Lattice& lattice, double dt) {
     fastest = std::max(fastest, lattice.motion[p].velocity.squaredNorm());
   }
   fastest = std::sqrt(fastest);
-  surface_ = LatticeSurface(lattice, *boundary_);
+  if (!surface_.is_of(*boundary_)) surface_ = LatticeSurface(lattice, *boundary_);
   const double time = kListInterval * dt;
   for (Obstacle& obstacle : obstacles_) {
     const ShadowBody& body = shadows_[obstacle.shadow()];

@@ -7,31 +7,17 @@
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
-namespace {
-
-std::array<std::int32_t, 3> corners_of(const Lattice& lattice, std::int32_t face) {
-  const auto object =
-      std::partition_point(lattice.objects.begin(), lattice.objects.end(),
-                           [&](const LatticeObject& o) { return o.faces.end <= face; });
-  const auto own = static_cast<std::size_t>(face - object->faces.begin);
-  const Face& authored = object->authored.geometry.faces[FaceId(own)];
-  std::array<std::int32_t, 3> points;
-  for (int i = 0; i < 3; ++i) points[i] = object->points.begin + authored.corners[i].value;
-  return points;
-}
-
-}  // namespace
-
 LatticeSurface::LatticeSurface(const Lattice& lattice, const BoundaryTracker& boundary)
     : boundary_(&boundary),
+      revision_(boundary.revision()),
       first_(lattice.motion.size() + 1, 0),
       of_sheet_(lattice.motion.size(), 0) {
   for (std::int32_t f : boundary.faces()) {
-    const std::array<std::int32_t, 3> corners = corners_of(lattice, f);
+    const std::array<std::int32_t, 3>& corners = lattice.face_corners[f];
     const bool dynamic = std::all_of(corners.begin(), corners.end(), [&](std::int32_t p) {
       return lattice.role[p] == PointRole::kDynamic;
     });
-    if (dynamic) faces_.push_back({f, corners, lattice.topology.face_cell[f] < 0});
+    if (dynamic) faces_.push_back({f, corners, lattice.face_two_sided[f] != 0});
   }
   std::sort(faces_.begin(), faces_.end(),
             [](const SurfaceFace& a, const SurfaceFace& b) { return a.face < b.face; });

@@ -15,15 +15,21 @@ inline namespace LIMBER_BULLET_PRECISION {
 struct SurfaceFace {
   std::int32_t face;
   std::array<std::int32_t, 3> corners;
-  bool sheet;  // without a cell: has two sides
+  bool sheet;  // has two sides
 };
 
 // The boundary of what is flexible: all faces with dynamic corners, and which way it looks at each
-// point. To be made anew after breaks; until then faces that have left the boundary do not count.
+// point. To be made anew after breaks and whenever other points are dynamic; until then faces that
+// have left the boundary do not count.
 class LatticeSurface {
  public:
   LatticeSurface() = default;
   LatticeSurface(const Lattice& lattice, const BoundaryTracker& boundary);
+
+  // Is it of this boundary, as that is now?
+  bool is_of(const BoundaryTracker& boundary) const {
+    return boundary_ == &boundary && revision_ == boundary.revision();
+  }
 
   std::span<const SurfaceFace> faces() const { return faces_; }  // ascending
   bool has(std::int32_t face) const { return boundary_->contains(face); }
@@ -35,6 +41,7 @@ class LatticeSurface {
 
  private:
   const BoundaryTracker* boundary_ = nullptr;
+  std::uint64_t revision_ = 0;
   std::vector<SurfaceFace> faces_;
   std::vector<std::int32_t> first_;     // shape (P + 1): of the point's share in around_
   std::vector<std::int32_t> around_;    // indices of faces_

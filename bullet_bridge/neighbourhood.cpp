@@ -8,6 +8,7 @@
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/shadow_body.h"
 #include "bullet_bridge/shapes/contact_shape.h"
+#include "core/model/bounds.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -61,6 +62,23 @@ std::vector<std::int32_t> points_near(const Lattice& lattice, std::span<const st
   std::vector<std::int32_t> some;
   for (std::size_t i = 0; i < inside.size(); i += stride) some.push_back(inside[i]);
   return some;
+}
+
+// Where the points are on their way through the tick, in the frame of the other body, m.
+std::vector<Vec3> places_seen_from(const btCollisionObject& other, const btCollisionObject& body,
+                                   std::span<const Vec3> local, double dt) {
+  constexpr int kLooks = 4;
+  ShadowBody mine = make_shadow(body), partner = make_shadow(other);
+  std::vector<Vec3> places;
+  for (int look = 0; look < kLooks; ++look) {
+    advance_pose(mine, dt / kLooks);
+    advance_pose(partner, dt / kLooks);
+    for (const Vec3& r : local) {
+      const Vec3 at = mine.position + mine.rotation * r;
+      places.push_back(partner.rotation.transpose() * (at - partner.position));
+    }
+  }
+  return places;
 }
 
 }  // namespace
@@ -117,23 +135,18 @@ double closing_speed(const Lattice& lattice, std::span<const std::int32_t> one,
 }
 
 bool points_reach(const btCollisionObject& body, std::span<const Vec3> local,
-                  const btCollisionObject& other, double dt) {
-  constexpr int kLooks = 4;
+                  const btCollisionObject& other, double dt, ShapeCache& cache) {
   constexpr double kMargin = 0.003;  // m: g dt^2 / 2 at 1/60 s is 1.4 mm
-  const std::vector<ContactPart> parts = contact_parts(*other.getCollisionShape());
-  ShadowBody mine = make_shadow(body), partner = make_shadow(other);
-  for (int look = 0; look < kLooks; ++look) {
-    advance_pose(mine, dt / kLooks);
-    advance_pose(partner, dt / kLooks);
-    for (const Vec3& r : local) {
-      const Vec3 at = mine.position + mine.rotation * r;
-      const Vec3 there = partner.rotation.transpose() * (at - partner.position);
-      for (const ContactPart& part : parts) {
-        if (penetration(part, there).depth > -kMargin) return true;
-      }
-    }
-  }
-  return false;
+  const std::vector<Vec3> places = places_seen_from(other, body, local, dt);
+  const Box3 box = limber::bounds_of(places);
+  const Vec3 margin = Vec3::Constant(kMargin);
+  const std::vector<ContactPart> parts =
+      contact_parts(*other.getCollisionShape(), box.min() - margin, box.max() + margin, cache);
+  return std::any_of(parts.begin(), parts.end(), [&](const ContactPart& part) {
+    return std::any_of(places.begin(), places.end(), [&](const Vec3& place) {
+      return penetration(part, place).depth > -kMargin;
+    });
+  });
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

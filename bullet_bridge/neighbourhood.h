@@ -12,6 +12,8 @@ class btCollisionObject;
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
+class ShapeCache;
+
 // A body that points may reach, and the box in the world, m, in which they may meet it.
 struct NearBody {
   const btCollisionObject* object;
@@ -37,7 +39,7 @@ double closing_speed(const Lattice& lattice, std::span<const std::int32_t> one,
 // Both move on as they move now; looked at four times. `local`: the piece's points in the frame of
 // `body`.
 bool points_reach(const btCollisionObject& body, std::span<const Vec3> local,
-                  const btCollisionObject& other, double dt);
+                  const btCollisionObject& other, double dt, ShapeCache& cache);
 
 }  // namespace LIMBER_BULLET_PRECISION
 }  // namespace limber::bullet

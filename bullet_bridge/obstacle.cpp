@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "bullet_bridge/shapes/face_penetration.h"
@@ -21,8 +23,15 @@ constexpr double kEaseSpeed = 0.05;
 // from there on as stiff as this share of the step's limit, 4 / dt^2, allows. The automatic step
 // leaves 0.15 of it beyond springs and point-point contact; contact with faces of lattices takes
 // 0.1, friction 0.05 of what is left when all meet at one point.
-constexpr double kSoftShare = 0.2;
+constexpr double kSoftShare = 0.4;
 constexpr double kDeepStepShare = 0.03;
+
+// And to this share of the part's own thickness: from half of it on a rod or a plate would be left
+// on the far side.
+constexpr double kThinShare = 0.1;
+
+// What all contacts of a body may take together of the step's limit on the body's side.
+constexpr double kBodyStepShare = 0.05;
 
 // The deepest place of a face is looked for to this share of the face's size: the force then is
 // wrong by as much as a tenth of a millimetre of depth on a face of 10 cm.
@@ -43,6 +52,11 @@ double eased(double depth, double& offset, double dt) {
   return depth - offset;
 }
 
+double thickness(const ContactPart& part) {  // m
+  if (part.kind == ContactPart::Kind::kTriangles) return std::numeric_limits<double>::infinity();
+  return (part.own_high - part.own_low).minCoeff();
+}
+
 bool may_touch(const ContactPart& part, const Vec3& local, double reach) {
   return within_reach(part, local, reach) && penetration(part, local).depth >= -reach;
 }
@@ -53,42 +67,74 @@ bool fits_between_points(const ContactPart& part) {
   return part.kind != ContactPart::Kind::kPlane && part.kind != ContactPart::Kind::kTriangles;
 }
 
+// The pairs of one point or face after the other, which are asked for in ascending order.
+template <class P>
+class KnownPairs {
+ public:
+  explicit KnownPairs(std::span<const P> ascending) : rest_(ascending) {}
+
+  std::span<const P> of(std::int32_t point_or_face) {
+    const auto before = [&](const P& pair) { return pair.of < point_or_face; };
+    const auto here = [&](const P& pair) { return pair.of == point_or_face; };
+    rest_ = {std::find_if_not(rest_.begin(), rest_.end(), before), rest_.end()};
+    return {rest_.begin(), std::find_if_not(rest_.begin(), rest_.end(), here)};
+  }
+
+ private:
+  std::span<const P> rest_;
+};
+
+template <class P>
+const P* with_part(std::span<const P> pairs, std::int32_t part) {
+  const auto found =
+      std::find_if(pairs.begin(), pairs.end(), [&](const P& pair) { return pair.part == part; });
+  return found == pairs.end() ? nullptr : &*found;
+}
+
 // Velocity of the lattice over the body at a place, m/s.
-Vec3 slip_at(const Lattice& lattice, const ShadowBody& body, const LatticePlace& place) {
+template <class Place>
+Vec3 slip_at(const Lattice& lattice, const ShadowBody& body, const Place& place) {
   return place.velocity(lattice) - body.velocity_at(place.position(lattice));
 }
 
-double depth_of_corners(const ContactPart& part, const Mat3& corners) {  // m, 0 for none inside
-  double depth = 0.0;
-  for (int i = 0; i < 3; ++i) depth = std::max(depth, penetration(part, corners.col(i)).depth);
-  return depth;
+// A body presses a lattice from outside: the far skin of a thin wall is out of its reach, and what
+// it would push further out is the near one's business. At rims the body touches across the
+// surface's normal; from 30 degrees on it is behind it. `outwards`: the lattice's own, of any
+// length, zero where it has none.
+bool is_behind(const Vec3& contact_normal, const Vec3& outwards) {
+  return contact_normal.dot(outwards) > 0.5 * outwards.norm();
 }
 
 }  // namespace
 
-Vec3 LatticePlace::position(const Lattice& lattice) const {
-  Vec3 sum = weights[0] * lattice.motion[points[0]].position;
-  for (int i = 1; i < 3; ++i) sum += weights[i] * lattice.motion[points[i]].position;
+void PointPlace::add_force(Lattice& lattice, const Vec3& force) const {
+  lattice.force[point] += force;
+  lattice.touched[point] = 1;
+}
+
+Vec3 FacePlace::position(const Lattice& lattice) const {
+  Vec3 sum = weights[0] * lattice.motion[corners[0]].position;
+  for (int i = 1; i < 3; ++i) sum += weights[i] * lattice.motion[corners[i]].position;
   return sum;
 }
 
-Vec3 LatticePlace::velocity(const Lattice& lattice) const {
-  Vec3 sum = weights[0] * lattice.motion[points[0]].velocity;
-  for (int i = 1; i < 3; ++i) sum += weights[i] * lattice.motion[points[i]].velocity;
+Vec3 FacePlace::velocity(const Lattice& lattice) const {
+  Vec3 sum = weights[0] * lattice.motion[corners[0]].velocity;
+  for (int i = 1; i < 3; ++i) sum += weights[i] * lattice.motion[corners[i]].velocity;
   return sum;
 }
 
-double LatticePlace::inverse_mass(const Lattice& lattice) const {
+double FacePlace::inverse_mass(const Lattice& lattice) const {
   double sum = 0.0;
-  for (int i = 0; i < 3; ++i) sum += weights[i] * weights[i] * lattice.inverse_mass[points[i]];
+  for (int i = 0; i < 3; ++i) sum += weights[i] * weights[i] * lattice.inverse_mass[corners[i]];
   return sum;
 }
 
-void LatticePlace::add_force(Lattice& lattice, const Vec3& force) const {
+void FacePlace::add_force(Lattice& lattice, const Vec3& force) const {
   for (int i = 0; i < 3; ++i) {
     if (weights[i] == 0.0) continue;
-    lattice.force[points[i]] += weights[i] * force;
-    lattice.touched[points[i]] = 1;
+    lattice.force[corners[i]] += weights[i] * force;
+    lattice.touched[corners[i]] = 1;
   }
 }
 
@@ -136,34 +182,36 @@ void Obstacle::list(const Lattice& lattice, const LatticeSurface& surface, const
 // What is found inside without having come in starts without force (a proxy that thaws where its
 // hull touches): the depth it has counts as surface until it has left.
 template <class P>
-P Obstacle::known_or_new(const std::vector<P>& old, std::int32_t of, std::size_t place,
+P Obstacle::known_or_new(const P* known, std::int32_t of, std::size_t listed,
                          const Vec3& local) const {
-  const std::int32_t part = parts_[place].id;
-  const auto known = std::lower_bound(
-      old.begin(), old.end(), std::pair(of, part),
-      [](const P& pair, const auto& key) { return std::pair(pair.of, pair.part) < key; });
   P pair;
-  if (known != old.end() && known->of == of && known->part == part) {
+  if (known) {
     pair = *known;
   } else {
     pair.of = of;
-    pair.part = part;
-    pair.track = start_track(parts_[place], local);
-    pair.offset = std::max(0.0, penetration(parts_[place], local).depth);
+    pair.part = parts_[listed].id;
+    pair.track = start_track(parts_[listed], local);
+    pair.offset = std::max(0.0, penetration(parts_[listed], local).depth);
   }
-  pair.place = place;
+  pair.listed = listed;
   return pair;
 }
 
+// What is held stays listed wherever it is: that it has come past a thin part, or under a surface
+// without an inside, its place does not tell.
 void Obstacle::list_points(const Lattice& lattice, const ShadowBody& body,
                            const ListingReach& reach) {
-  const std::vector<Pair> old = std::exchange(points_, {});
+  const std::vector<PointPair> old = std::exchange(points_, {});
+  KnownPairs<PointPair> known(old);
   for (std::int32_t p : lattice.dynamic_points) {
     const Vec3 local = to_frame(body, lattice.motion[p].position);
     const double reached = reach.least + lattice.motion[p].velocity.norm() * reach.time;
+    const std::span<const PointPair> known_here = known.of(p);
     for (std::size_t k = 0; k < parts_.size(); ++k) {
-      if (!may_touch(parts_[k], local, reached)) continue;
-      points_.push_back(known_or_new(old, p, k, local));
+      const PointPair* then = with_part(known_here, parts_[k].id);
+      const bool held = then && then->track.inside;
+      if (!held && !may_touch(parts_[k], local, reached)) continue;
+      points_.push_back(known_or_new(then, p, k, local));
     }
   }
 }
@@ -171,9 +219,9 @@ void Obstacle::list_points(const Lattice& lattice, const ShadowBody& body,
 void Obstacle::list_faces(const Lattice& lattice, const LatticeSurface& surface,
                           const ShadowBody& body, const ListingReach& reach) {
   const std::vector<FacePair> old = std::exchange(faces_, {});
+  KnownPairs<FacePair> known(old);
   for (const SurfaceFace& face : surface.faces()) {
-    const LatticePlace middle{face.corners, Vec3::Constant(1.0 / 3.0)};
-    const Vec3 centre = middle.position(lattice);
+    const Vec3 centre = FacePlace{face.corners}.position(lattice);
     double radius = 0.0, fastest = 0.0;
     for (std::int32_t p : face.corners) {
       radius = std::max(radius, (lattice.motion[p].position - centre).norm());
@@ -181,12 +229,17 @@ void Obstacle::list_faces(const Lattice& lattice, const LatticeSurface& surface,
     }
     const double reached = reach.least + fastest * reach.time + radius;
     const Vec3 local = to_frame(body, centre);
+    const std::span<const FacePair> known_here = known.of(face.face);
     for (std::size_t k = 0; k < parts_.size(); ++k) {
-      if (!fits_between_points(parts_[k]) || !may_touch(parts_[k], local, reached)) continue;
-      faces_.push_back(known_or_new(old, face.face, k, local));
+      if (!fits_between_points(parts_[k])) continue;
+      const FacePair* then = with_part(known_here, parts_[k].id);
+      const bool held = then && then->track.inside;
+      if (!held && !may_touch(parts_[k], local, reached)) continue;
+      faces_.push_back(known_or_new(then, face.face, k, local));
       FacePair& pair = faces_.back();
-      if (pair.corners != face.corners) pair.last = corners_in_frame(lattice, body, face.corners);
+      if (!then) pair.last = corners_in_frame(lattice, body, face.corners);
       pair.corners = face.corners;
+      pair.clear = 0.0;
       pair.sheet = face.sheet;
     }
   }
@@ -194,77 +247,73 @@ void Obstacle::list_faces(const Lattice& lattice, const LatticeSurface& surface,
 
 void Obstacle::press(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body, double dt) {
   pushed_ = 0;
-  for (Pair& pair : points_) press_point(lattice, surface, body, pair, dt);
+  for (PointPair& pair : points_) press_point(lattice, surface, body, pair, dt);
   for (FacePair& pair : faces_) {
     if (surface.has(pair.of)) press_face(lattice, body, pair, dt);
   }
   sharers_ = std::max(1, pushed_);
 }
 
-// `outwards`: the lattice's own, of any length, zero where it has none; all in the obstacle's
-// frame.
-//
-// A body presses a lattice from outside: the far skin of a thin wall is out of its reach, and what
-// it would push further out is the near one's business. At rims the body touches across the
-// surface's normal; from 30 degrees on it is behind it.
-Penetration Obstacle::meet(Pair& pair, const Vec3& now, const Vec3& outwards,
-                           bool two_sided) const {
-  Penetration contact = follow(parts_[pair.place], now, pair.track);
-  if (contact.depth <= 0.0) {
-    pair.let_go();
-  } else if (!two_sided && pair.books.stored == 0.0 &&
-             contact.normal.dot(outwards) > 0.5 * outwards.norm()) {
-    contact.depth = 0.0;
-  }
-  return contact;
-}
-
 void Obstacle::press_point(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body,
-                           Pair& pair, double dt) {
+                           PointPair& pair, double dt) {
+  const ContactPart& part = parts_[pair.listed];
   const Vec3 now = to_frame(body, lattice.motion[pair.of].position);
-  if (stays_outside(parts_[pair.place], now, pair.track)) return;
-  const Vec3 outwards = direction_to_frame(body, surface.outwards_at(lattice, pair.of));
-  const Penetration contact = meet(pair, now, outwards, surface.is_of_sheet(pair.of));
-  if (contact.depth <= 0.0) return;
-  push(lattice, body, pair, {{pair.of, pair.of, pair.of}, Vec3::UnitX()}, contact, dt);
+  if (stays_outside(part, now, pair.track)) return;
+  const Penetration contact = follow(part, now, pair.track);
+  if (contact.depth <= 0.0) return pair.let_go();
+  const bool new_here = pair.books.stored == 0.0 && !surface.is_of_sheet(pair.of);
+  if (new_here &&
+      is_behind(contact.normal, direction_to_frame(body, surface.outwards_at(lattice, pair.of)))) {
+    return;
+  }
+  push(lattice, body, pair, {pair.of}, contact, dt);
 }
 
 // Presses with the depth beyond that of its deepest corner, which presses as a point: the two join
 // without a jump where the deepest place comes to a corner.
 void Obstacle::press_face(Lattice& lattice, ShadowBody& body, FacePair& pair, double dt) {
-  const ContactPart& part = parts_[pair.place];
   const Mat3 corners = corners_in_frame(lattice, body, pair.corners);
-  LatticePlace place{pair.corners, Vec3::Constant(1.0 / 3.0)};
-  const Vec3 centre = corners * place.weights;
+  if ((corners - pair.last).colwise().squaredNorm().maxCoeff() < pair.clear * pair.clear) return;
+  const ContactPart& part = parts_[pair.listed];
   const Mat3 before = std::exchange(pair.last, corners);
-  const double radius = (corners.colwise() - centre).colwise().norm().maxCoeff();
-  if (pair.track.inside || penetration(part, centre).depth + radius > 0.0) {
-    place.weights = deepest_place(part, corners, kDepthTolerance * radius).weights;
-  }
+  const double size = (corners.colwise() - corners.col(0)).colwise().norm().maxCoeff();
+  const FacePenetration deepest = deepest_place(part, corners, kDepthTolerance * size);
+  pair.track.last = before * deepest.weights;  // the place may have moved on the face, this has not
+  Penetration contact = follow(part, corners * deepest.weights, pair.track);
+  pair.clear = pair.track.inside ? 0.0 : std::max(0.0, -deepest.bound);
+  if (contact.depth <= 0.0) return pair.let_go();
   const Vec3 outwards = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
-  pair.track.last = before * place.weights;  // the place may have moved on the face, this has not
-  Penetration contact = meet(pair, corners * place.weights, outwards, pair.sheet);
-  if (contact.depth <= 0.0) return;
-  contact.depth -= depth_of_corners(part, corners);
-  push(lattice, body, pair, place, contact, dt);
+  const bool new_here = pair.books.stored == 0.0 && !pair.sheet;
+  if (new_here && is_behind(contact.normal, outwards)) return;
+  contact.depth -= std::max(0.0, deepest.corners);
+  push(lattice, body, pair, {pair.corners, deepest.weights}, contact, dt);
 }
 
-PenaltyContact Obstacle::law_at(const Lattice& lattice, std::int32_t point, double dt) const {
+PenaltyContact Obstacle::law_at(const Lattice& lattice, std::int32_t point, const ContactPart& part,
+                                double dt) const {
   PenaltyContact law = laws_[lattice.point_object[point]];
-  law.soft_depth = kSoftShare * lattice.contact_radius[point];
+  law.soft_depth =
+      std::min(kSoftShare * lattice.contact_radius[point], kThinShare * thickness(part));
   law.deep_frequency = std::max(law.frequency, 2.0 * std::sqrt(kDeepStepShare) / dt);
   return law;
 }
 
-// Contacts share the body: all of them together do not shake it faster than one would.
-double Obstacle::effective_mass(const Lattice& lattice, const ShadowBody& body,
-                                const LatticePlace& place, const Vec3& normal) const {
-  const double behind =
-      body.movable() ? body.inverse_effective_mass(place.position(lattice), normal) : 0.0;
-  return 1.0 / (place.inverse_mass(lattice) + sharers_ * behind);
+// Contacts share the body: each takes a mass m_i = 1 / (w_i + s b_i) for its spring k_i = omega^2
+// m_i (w_i, b_i: what the place and the body move for an impulse, 1/kg), so that sum k_i b_i, the
+// square of what n of them shake the body with, stays below kBodyStepShare of the step's limit.
+// A body that is heavy beside what presses it bears all of them as it would one.
+template <class Place>
+double Obstacle::effective_mass(const Lattice& lattice, const ShadowBody& body, const Place& place,
+                                const Vec3& normal) const {
+  const double own = place.inverse_mass(lattice);
+  if (!body.movable()) return 1.0 / own;
+  const double behind = body.inverse_effective_mass(place.position(lattice), normal);
+  const double needed = sharers_ * behind * (kDeepStepShare / kBodyStepShare) - own;
+  return 1.0 / (own + std::max(behind, needed));
 }
 
-void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair& pair, const LatticePlace& place,
+template <class Place>
+void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const Place& place,
                     const Penetration& contact, double dt) {
   PassiveContact& books = pair.books;
   if (books.impulse > 0.0) {
@@ -277,7 +326,7 @@ void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair& pair, const Lattic
   if (std::isinf(books.mass)) return;
   const Vec3 slip = slip_at(lattice, body, place);
   const double separation = slip.dot(normal);
-  const PenaltyContact law = law_at(lattice, place.points[0], dt);
+  const PenaltyContact law = law_at(lattice, place.lawgiver(), parts_[pair.listed], dt);
   double most = books.largest_impulse(-separation);
   if (pair.offset > 0.0) {
     books.forgive(law.elastic_energy(books.mass, std::max(0.0, depth)));
@@ -295,7 +344,8 @@ void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair& pair, const Lattic
   ++pushed_;
 }
 
-void Obstacle::Pair::let_go() {
+template <class Place>
+void Obstacle::Pair<Place>::let_go() {
   offset = 0.0;
   books = {};
   friction = {};

@@ -15,14 +15,25 @@
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
-// A place of a lattice: a point, or one on a face between its corners.
-struct LatticePlace {
-  std::array<std::int32_t, 3> points;
-  Vec3 weights;  // barycentric; the first one alone for a point
+// Where a lattice is pressed: at a point, or on a face between its corners. `inverse_mass`: 1/kg,
+// for a force there.
+struct PointPlace {
+  std::int32_t point = -1;
 
+  std::int32_t lawgiver() const { return point; }
+  Vec3 position(const Lattice& lattice) const { return lattice.motion[point].position; }
+  Vec3 velocity(const Lattice& lattice) const { return lattice.motion[point].velocity; }
+  double inverse_mass(const Lattice& lattice) const { return lattice.inverse_mass[point]; }
+  void add_force(Lattice& lattice, const Vec3& force) const;
+};
+struct FacePlace {
+  std::array<std::int32_t, 3> corners = {-1, -1, -1};
+  Vec3 weights = Vec3::Constant(1.0 / 3.0);  // barycentric
+
+  std::int32_t lawgiver() const { return corners[0]; }
   Vec3 position(const Lattice& lattice) const;
   Vec3 velocity(const Lattice& lattice) const;
-  double inverse_mass(const Lattice& lattice) const;  // 1/kg, for a force at this place
+  double inverse_mass(const Lattice& lattice) const;
   void add_force(Lattice& lattice, const Vec3& force) const;
 };
 
@@ -56,22 +67,25 @@ class Obstacle {
 
  private:
   // Of a place and a part.
+  template <class Place>
   struct Pair {
-    std::int32_t of;    // point, or face
-    std::int32_t part;  // its id
-    std::size_t place;  // of the part in parts_
+    std::int32_t of;     // point, or face
+    std::int32_t part;   // its id
+    std::size_t listed;  // where the part is in parts_
     PointTrack track;
-    double offset;         // m of penetration that was there when the pair was first seen
-    LatticePlace pressed;  // in the last substep, if its books have an impulse
-    Vec3 normal;           // along which, world
+    double offset;  // m of penetration that was there when the pair was first seen
+    Place pressed;  // in the last substep, if its books have an impulse
+    Vec3 normal;    // along which, world
     PassiveContact books;
     FrictionSpring friction;
 
     void let_go();
   };
-  struct FacePair : Pair {
+  using PointPair = Pair<PointPlace>;
+  struct FacePair : Pair<FacePlace> {
     std::array<std::int32_t, 3> corners = {-1, -1, -1};
-    Mat3 last;  // the corners a substep ago, as columns in the obstacle's frame, m
+    Mat3 last = Mat3::Zero();  // the corners when it was last looked at, in the obstacle's frame, m
+    double clear = 0.0;        // m: it does not touch before a corner has moved so far from there
     bool sheet = false;
   };
 
@@ -80,19 +94,20 @@ class Obstacle {
                         const std::array<std::int32_t, 3>& corners) const;
   Vec3 direction_to_frame(const ShadowBody& body, const Vec3& direction) const;
   template <class P>
-  P known_or_new(const std::vector<P>& old, std::int32_t of, std::size_t place,
-                 const Vec3& local) const;
+  P known_or_new(const P* known, std::int32_t of, std::size_t listed, const Vec3& local) const;
   void list_points(const Lattice& lattice, const ShadowBody& body, const ListingReach& reach);
   void list_faces(const Lattice& lattice, const LatticeSurface& surface, const ShadowBody& body,
                   const ListingReach& reach);
-  void press_point(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body, Pair& pair,
-                   double dt);
+  void press_point(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body,
+                   PointPair& pair, double dt);
   void press_face(Lattice& lattice, ShadowBody& body, FacePair& pair, double dt);
-  Penetration meet(Pair& pair, const Vec3& now, const Vec3& outwards, bool two_sided) const;
-  PenaltyContact law_at(const Lattice& lattice, std::int32_t point, double dt) const;
-  double effective_mass(const Lattice& lattice, const ShadowBody& body, const LatticePlace& place,
+  PenaltyContact law_at(const Lattice& lattice, std::int32_t point, const ContactPart& part,
+                        double dt) const;
+  template <class Place>
+  double effective_mass(const Lattice& lattice, const ShadowBody& body, const Place& place,
                         const Vec3& normal) const;
-  void push(Lattice& lattice, ShadowBody& body, Pair& pair, const LatticePlace& place,
+  template <class Place>
+  void push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const Place& place,
             const Penetration& contact, double dt);
 
   const btCollisionObject* object_;
@@ -100,7 +115,7 @@ class Obstacle {
   bool at_rest_;                      // immovable and not moving: parts are in world coordinates
   std::vector<ContactPart> parts_;    // otherwise in the body's frame
   std::vector<PenaltyContact> laws_;  // against each object of the lattice
-  std::vector<Pair> points_;          // ascending by (of, part)
+  std::vector<PointPair> points_;     // ascending by (of, part)
   std::vector<FacePair> faces_;       // ascending by (of, part)
   int sharers_ = 1;                   // contacts that pushed the body in the last substep
   int pushed_ = 0;                    // in this one

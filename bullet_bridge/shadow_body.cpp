@@ -36,7 +36,7 @@ void keep_angular_momentum(const ShadowBody& shadow, const Vec3& shift) {
   const btVector3 dv = body.getLinearVelocity() - to_bullet(shadow.velocity);
   const btVector3 spun = body.getAngularVelocity() - to_bullet(shadow.angular_velocity);
   const Vec3 inverse = shadow.inverse_inertia_local.diagonal();
-  if ((dv.isZero() && spun.isZero()) || inverse.minCoeff() <= 0.0) return;
+  if ((dv.isZero() && spun.isZero()) || inverse.minCoeff() <= 0.0 || !shadow.turns_freely()) return;
   const Vec3 moments = inverse.cwiseInverse();
   const Vec3 L = angular_momentum(shadow) +
                  inertia_at(moments, shadow.start_orientation) * from_bullet(spun) -
@@ -62,6 +62,8 @@ ShadowBody make_shadow(const btCollisionObject& object) {
   if (body && !body->isStaticOrKinematicObject()) {
     shadow.inverse_mass = body->getInvMass();
     shadow.inverse_inertia_local = from_bullet(body->getInvInertiaDiagLocal()).asDiagonal();
+    shadow.linear_factor = from_bullet(body->getLinearFactor());
+    shadow.angular_factor = from_bullet(body->getAngularFactor());
   }
   refresh_rotation(shadow);
   return shadow;

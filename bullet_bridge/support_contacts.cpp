@@ -41,6 +41,7 @@ SupportContact make_contact(const btManifoldPoint& point, int a, int b, const Sh
 // One direction of a contact with what does not change during the sweeps of a substep.
 struct Axis {
   Vec3 direction;
+  Vec3 shift_a, shift_b;        // velocity for a unit impulse, 1/kg
   Vec3 arm_a, arm_b;            // r x direction
   Vec3 turn_a, turn_b;          // I^-1 (r x direction)
   double effective_mass = 0.0;  // kg
@@ -50,9 +51,9 @@ struct Axis {
            arm_b.dot(b.angular_velocity);
   }
   void push(ShadowBody& a, ShadowBody& b, double impulse) const {
-    a.velocity += a.inverse_mass * impulse * direction;
+    a.velocity += impulse * shift_a;
     a.angular_velocity += impulse * turn_a;
-    b.velocity -= b.inverse_mass * impulse * direction;
+    b.velocity -= impulse * shift_b;
     b.angular_velocity -= impulse * turn_b;
   }
 };
@@ -61,12 +62,14 @@ Axis make_axis(const ShadowBody& a, const ShadowBody& b, const Vec3& on_a, const
                const Vec3& direction) {
   Axis axis;
   axis.direction = direction;
+  axis.shift_a = a.inverse_mass * a.linear_factor.cwiseProduct(direction);
+  axis.shift_b = b.inverse_mass * b.linear_factor.cwiseProduct(direction);
   axis.arm_a = (on_a - a.position).cross(direction);
   axis.arm_b = (on_b - b.position).cross(direction);
   axis.turn_a = a.inverse_inertia * axis.arm_a;
   axis.turn_b = b.inverse_inertia * axis.arm_b;
-  const double inverse_mass =
-      a.inverse_mass + b.inverse_mass + axis.arm_a.dot(axis.turn_a) + axis.arm_b.dot(axis.turn_b);
+  const double inverse_mass = direction.dot(axis.shift_a + axis.shift_b) +
+                              axis.arm_a.dot(axis.turn_a) + axis.arm_b.dot(axis.turn_b);
   axis.effective_mass = inverse_mass > 0.0 ? 1.0 / inverse_mass : 0.0;
   return axis;
 }

@@ -72,13 +72,6 @@ std::vector<ContactPart> contact_parts(const btCollisionShape& shape, const Vec3
   return std::move(collector.parts);
 }
 
-std::vector<ContactPart> contact_parts(const btCollisionShape& shape) {
-  btVector3 low, high;
-  shape.getAabb(btTransform::getIdentity(), low, high);
-  ShapeCache cache;
-  return contact_parts(shape, from_bullet(low), from_bullet(high), cache);
-}
-
 ContactPart placed(ContactPart part, const Vec3& position, const Mat3& rotation) {
   part.position = position + rotation * part.position;
   part.rotation = rotation * part.rotation;

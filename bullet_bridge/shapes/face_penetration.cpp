@@ -77,23 +77,28 @@ Cut cut_at(const Penetration& here, const Vec3& place, const Mat3& corners) {
 
 FacePenetration deepest_place(const ContactPart& part, const Mat3& corners, double tolerance_m) {
   std::array<Penetration, 3> at;
-  FacePenetration deepest{Vec3::UnitX(), -1e300};
+  FacePenetration deepest{Vec3::UnitX(), -1e300, 0.0, 0.0};
   for (int i = 0; i < 3; ++i) {
     at[i] = penetration(part, corners.col(i));
-    if (at[i].depth > deepest.depth) deepest = {Vec3::Unit(i), at[i].depth};
+    if (at[i].depth > deepest.depth) deepest = {Vec3::Unit(i), at[i].depth, 0.0, 0.0};
   }
+  deepest.bound = deepest.corners = deepest.depth;
   // In front of one side the depth is linear: the most frequent case by far.
   if (at[0].normal == at[1].normal && at[0].normal == at[2].normal) return deepest;
   DepthBound bound;
   for (int i = 0; i < 3; ++i) bound.add(cut_at(at[i], corners.col(i), corners));
   while (!bound.full() && bound.maximum().bound > deepest.depth + tolerance_m) {
-    if (bound.maximum().bound <= 0.0) return {bound.maximum().weights, bound.maximum().bound};
+    if (bound.maximum().bound <= 0.0) {
+      const auto& [weights, least] = bound.maximum();
+      return {weights, least, least, deepest.corners};
+    }
     const Vec3 weights = bound.maximum().weights.cwiseMax(0.0);
     const Vec3 place = corners * weights;
     const Penetration here = penetration(part, place);
-    if (here.depth > deepest.depth) deepest = {weights, here.depth};
+    if (here.depth > deepest.depth) deepest = {weights, here.depth, 0.0, deepest.corners};
     bound.add(cut_at(here, place, corners));
   }
+  deepest.bound = bound.maximum().bound;
   return deepest;
 }
 

@@ -7,8 +7,10 @@ inline namespace LIMBER_BULLET_PRECISION {
 
 // Where a face lies deepest in a convex part.
 struct FacePenetration {
-  Vec3 weights;        // of the face's corners: barycentric coordinates of that place
-  double depth = 0.0;  // m, negative outside; an upper bound when that is <= 0
+  Vec3 weights;          // of the face's corners: barycentric coordinates of that place
+  double depth = 0.0;    // m, negative outside; an upper bound when that is <= 0
+  double bound = 0.0;    // m: no place of the face is deeper
+  double corners = 0.0;  // m: depth of the deepest corner
 };
 
 // Of a triangle, `corners` as columns in the frame of the whole shape, m; to `tolerance_m`. Points

@@ -136,8 +136,7 @@ struct TriangleCollector : btTriangleCallback {
 // The triangles of a height field face upwards, whichever way they are wound.
 void face_upwards(std::vector<TrianglePatch::Raw>& raw, int up) {
   for (TrianglePatch::Raw& r : raw) {
-    Corners& c = r.corners;
-    if ((c[1] - c[0]).cross(c[2] - c[0])[up] < 0.0) std::swap(c[1], c[2]);
+    if (twice_area_vector(r.corners)[up] < 0.0) std::swap(r.corners[1], r.corners[2]);
   }
 }
 
@@ -167,25 +166,23 @@ bool has_triangles(const btCollisionShape& shape) {
 }
 
 bool make_closed_form(ContactPart& part, const btCollisionShape& shape) {
+  const auto made_by = [&]<class Shape>(void (*make)(ContactPart&, const Shape&)) {
+    make(part, static_cast<const Shape&>(shape));
+    return true;
+  };
   switch (shape.getShapeType()) {
     case BOX_SHAPE_PROXYTYPE:
-      make_box(part, static_cast<const btBoxShape&>(shape));
-      return true;
+      return made_by(make_box);
     case SPHERE_SHAPE_PROXYTYPE:
-      make_sphere(part, static_cast<const btSphereShape&>(shape));
-      return true;
+      return made_by(make_sphere);
     case STATIC_PLANE_PROXYTYPE:
-      make_plane(part, static_cast<const btStaticPlaneShape&>(shape));
-      return true;
+      return made_by(make_plane);
     case CAPSULE_SHAPE_PROXYTYPE:
-      make_capsule(part, static_cast<const btCapsuleShape&>(shape));
-      return true;
+      return made_by(make_capsule);
     case CYLINDER_SHAPE_PROXYTYPE:
-      make_cylinder(part, static_cast<const btCylinderShape&>(shape));
-      return true;
+      return made_by(make_cylinder);
     case CONE_SHAPE_PROXYTYPE:
-      make_cone(part, static_cast<const btConeShape&>(shape));
-      return true;
+      return made_by(make_cone);
     default:
       return false;
   }

@@ -21,11 +21,25 @@ double extent(const PatchTriangle& t) {
   return (high - low).maxCoeff();
 }
 
+// The nearest triangle of those looked at.
+struct NearestTriangle {
+  const Vec3& point;
+  std::int32_t index = -1;  // -1: none yet
+  NearestPoint at{Vec3::Zero(), std::numeric_limits<double>::infinity()};
+
+  void look_at(const PatchTriangle& triangle, std::int32_t i) {
+    const double height = triangle.height_of(point);
+    if (height * height >= at.squared_distance) return;
+    const NearestPoint here = nearest_on_triangle(point, triangle.corners);
+    if (here.squared_distance < at.squared_distance) at = here, index = i;
+  }
+};
+
 }  // namespace
 
 TrianglePatch::TrianglePatch(std::vector<Raw> raw, double margin) {
   for (const Raw& r : raw) {
-    const Vec3 area = (r.corners[1] - r.corners[0]).cross(r.corners[2] - r.corners[0]);
+    const Vec3 area = twice_area_vector(r.corners);
     const double norm = area.norm();
     if (!(norm > 0.0)) continue;
     triangles_.push_back({.key = r.key, .corners = r.corners, .normal = area / norm, .next = {}});
@@ -167,39 +181,34 @@ bool TrianglePatch::parted(const Vec3& a, const Vec3& b) const {
   return found;
 }
 
-TrianglePatch::Nearest TrianglePatch::seen_from(TriangleSide side, const Vec3& point) const {
+TrianglePatch::Nearest TrianglePatch::seen_from(TriangleSide side, const Vec3& point,
+                                                const NearestPoint& at) const {
   const PatchTriangle& t = triangles_[side.triangle];
-  const TriangleFoot foot = foot_on_triangle(t.corners, point);
   return {.side = side,
-          .foot = foot.point,
-          .distance = (point - foot.point).norm(),
+          .foot = point_at(t.corners, at.weights),
+          .distance = std::sqrt(at.squared_distance),
           .behind = (t.height_of(point) >= 0.0) != side.front,
           .on_border = false};
 }
 
-TrianglePatch::Nearest TrianglePatch::seen_from_its_side(std::int32_t triangle,
-                                                         const Vec3& point) const {
-  return seen_from({triangle, triangles_[triangle].height_of(point) >= 0.0}, point);
+TrianglePatch::Nearest TrianglePatch::seen_from_its_side(const Vec3& point, std::int32_t triangle,
+                                                         const NearestPoint& at) const {
+  if (triangle < 0) return {};
+  return seen_from({triangle, triangles_[triangle].height_of(point) >= 0.0}, point, at);
 }
 
 TrianglePatch::Nearest TrianglePatch::nearest_near(const Vec3& point) const {
-  Nearest best;
-  for_each_near(point, point, [&](std::int32_t i) {
-    const Nearest here = seen_from_its_side(i, point);
-    if (best.side.triangle < 0 || here.distance < best.distance) best = here;
-  });
-  return best;
+  NearestTriangle nearest{point};
+  for_each_near(point, point, [&](std::int32_t i) { nearest.look_at(triangles_[i], i); });
+  return seen_from_its_side(point, nearest.index, nearest.at);
 }
 
 TrianglePatch::Nearest TrianglePatch::nearest_of_all(const Vec3& point) const {
-  Nearest best;
+  NearestTriangle nearest{point};
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    const bool first = best.side.triangle < 0;
-    if (!first && std::abs(triangles_[i].height_of(point)) >= best.distance) continue;
-    const Nearest here = seen_from_its_side(static_cast<std::int32_t>(i), point);
-    if (first || here.distance < best.distance) best = here;
+    nearest.look_at(triangles_[i], static_cast<std::int32_t>(i));
   }
-  return best;
+  return seen_from_its_side(point, nearest.index, nearest.at);
 }
 
 Penetration TrianglePatch::penetration(const Vec3& point, double margin) const {
@@ -216,48 +225,51 @@ TrianglePatch::Nearest TrianglePatch::nearest_around(TriangleSide from, const Ve
   struct Step {  // without initialisers: most of them are never used
     std::int32_t triangle;
     bool front;
-    unsigned on_edges;
-    double squared;  // m^2, of the distance
+    NearestPoint at;
+    double squared() const { return at.squared_distance; }  // m^2
   };
   std::array<Step, kWalk> steps;
+  std::size_t count = 1, best = 0;
   const auto step_to = [&](TriangleSide side) -> Step {
-    const TriangleFoot foot = foot_on_triangle(triangles_[side.triangle].corners, point);
-    return {side.triangle, side.front, foot.edges, (point - foot.point).squaredNorm()};
+    return {side.triangle, side.front,
+            nearest_on_triangle(point, triangles_[side.triangle].corners)};
   };
   const auto steepness = [&](const Step& s) {
     return std::abs(triangles_[s.triangle].height_of(point));
   };
+  const auto farther = [&](const Step& s) {
+    return s.squared() > steps[best].squared() * (1.0 + kSame);
+  };
   steps[0] = step_to(from);
-  std::size_t count = 1, best = 0;
-  for (std::size_t at = 0; at < count; ++at) {
-    const Step here = steps[at];
-    if (here.squared > steps[best].squared * (1.0 + kSame)) continue;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Step& here = steps[i];
+    if (farther(here)) continue;
     for (int k = 0; k < 3 && count < kWalk; ++k) {
       const TriangleSide next = triangles_[here.triangle].next[here.front][k];
       if (next.triangle < 0) continue;
       const bool agrees = facing(next).dot(normal) > kAgree;
-      if (!agrees && !(here.on_edges >> k & 1u)) continue;
+      if (!agrees && !here.at.on_side(k)) continue;
       const bool known = std::any_of(steps.begin(), steps.begin() + count,
                                      [&](const Step& s) { return s.triangle == next.triangle; });
       if (known) continue;
       const Step there = step_to(next);
-      const double least = steps[best].squared;
-      if (there.squared > least * (1.0 + kSame)) continue;
+      if (farther(there)) continue;
       // Where the foot is on an edge of both, the one whose plane is farther tells behind from
       // before: the other plane may cut through the space on the wrong side of it.
-      const bool nearer = there.squared < least * (1.0 - kSame);
+      const bool nearer = there.squared() < steps[best].squared() * (1.0 - kSame);
       steps[count] = there;
       if (nearer || steepness(there) > steepness(steps[best])) best = count;
       ++count;
     }
   }
-  Nearest nearest = seen_from({steps[best].triangle, steps[best].front}, point);
+  const Step& last = steps[best];
+  Nearest nearest = seen_from({last.triangle, last.front}, point, last.at);
   // A corner on the border belongs to triangles without an edge there, too.
   for (std::size_t i = 0; i < count; ++i) {
-    if (steps[i].squared > steps[best].squared * (1.0 + kSame)) continue;
+    if (farther(steps[i])) continue;
     for (int k = 0; k < 3; ++k) {
       const bool border = triangles_[steps[i].triangle].next[steps[i].front][k].triangle < 0;
-      if (border && (steps[i].on_edges >> k & 1u)) nearest.on_border = true;
+      if (border && steps[i].at.on_side(k)) nearest.on_border = true;
     }
   }
   return nearest;
@@ -279,7 +291,8 @@ TriangleSide TrianglePatch::taking_over(const Nearest& last, const Vec3& point,
     const double off = std::abs(behind - depth);
     if (behind <= 0.0 || off > least || (off == least && best.triangle >= 0)) return;
     // The point is over the triangle, or over a gap beside it.
-    if ((foot_on_triangle(t.corners, point).point - point).norm() > 1.05 * behind + kGap) return;
+    const double distance = std::sqrt(nearest_on_triangle(point, t.corners).squared_distance);
+    if (distance > 1.05 * behind + kGap) return;
     least = off;
     best = {i, front};
   });

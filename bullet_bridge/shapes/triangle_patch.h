@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bullet_bridge/shapes/contact_part.h"
-#include "bullet_bridge/shapes/triangle.h"
+#include "core/contact/triangle.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -19,7 +19,7 @@ struct TriangleSide {
 
 struct PatchTriangle {
   std::int64_t key;  // of the triangle in its shape, the same in every tick
-  Corners corners;
+  Triangle corners;
   Vec3 normal = Vec3::Zero();  // unit, to the front
   // Seen from the back [0] or the front [1]: what follows beyond each edge. -1: a border.
   std::array<std::array<TriangleSide, 3>, 2> next{};
@@ -34,7 +34,7 @@ class TrianglePatch {
  public:
   struct Raw {
     std::int64_t key;
-    Corners corners;
+    Triangle corners;
   };
 
   // Queries within `margin` of a triangle will find it, m. Triangles without area are left out.
@@ -107,8 +107,9 @@ class TrianglePatch {
   void for_each_cell_of(const PatchTriangle& triangle, double margin, Visit visit) const;
   template <class Visit>
   void for_each_near(const Vec3& low, const Vec3& high, Visit visit) const;
-  Nearest seen_from(TriangleSide side, const Vec3& point) const;
-  Nearest seen_from_its_side(std::int32_t triangle, const Vec3& point) const;
+  Nearest seen_from(TriangleSide side, const Vec3& point, const NearestPoint& at) const;
+  Nearest seen_from_its_side(const Vec3& point, std::int32_t triangle,
+                             const NearestPoint& at) const;
 
   std::vector<PatchTriangle> triangles_;  // ascending by key
   Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/contact/penalty.h"
 
 namespace limber {
@@ -8,26 +11,42 @@ namespace limber {
 // Strack, Geotechnique 29, 1979), so that what lies on a slope stays there. friction_force() alone
 // only slows what slips and lets it creep by about g dt / kFrictionShare.
 struct FrictionSpring {
-  Vec3 stretch = Vec3::Zero();  // m, since the contact sticks
+  // Of a substep. Much less than the turns in which a resting contact presses, some ten substeps.
+  static constexpr double kForgetShare = 0.01;
 
-  // Force, N, against the slip velocity (m/s, across the unit normal). The spring has the law's
-  // frequency omega_c and gives way at mu N; while it holds, the damper of friction_force() acts
-  // beside it. Together they pull with mu N at most.
+  Vec3 stretch = Vec3::Zero();  // m, since the contact sticks
+  double pressed = 0.0;         // N: the largest normal force lately
+  double taken = 0.0;           // J that the contact has taken in across the normal so far
+  Vec3 force = Vec3::Zero();    // N, of the last substep
+  Vec3 slip = Vec3::Zero();     // m/s, before it
+
+  // Force, N, against the slip velocity (m/s, across the unit normal): never more than mu N. The
+  // spring has the law's frequency omega_c; while it holds, the damper of friction_force() acts
+  // beside it.
+  //
+  // A contact that bears a load presses in turns, with k d and with e^2 k d (penalty_force()). So
+  // the spring gives way at mu times the largest N of the last 1 / kForgetShare substeps or so: if
+  // it did so at the present one, it would slip a little each time it is pressed less. It pulls no
+  // harder for that, but it may be stretched while it is pressed less than when it is let go; so it
+  // holds no more than friction has taken.
   Vec3 pull(const PenaltyContact& law, double normal_force, double reduced_mass, const Vec3& normal,
             const Vec3& slip_velocity, double dt) {
-    const double most = law.friction * normal_force;
-    const double k = law.frequency * law.frequency * reduced_mass;
+    taken -= 0.5 * dt * force.dot(slip + slip_velocity);
+    pressed = std::max(normal_force, (1.0 - kForgetShare) * pressed);
     stretch += slip_velocity * dt;
     stretch -= stretch.dot(normal) * normal;
-    const double holding = k * stretch.norm();
-    if (holding > most) {
-      stretch *= most / holding;
-      return -k * stretch;
-    }
-    const double c = kFrictionShare * reduced_mass / dt;
-    const Vec3 force = -k * stretch - c * slip_velocity;
-    const double size = force.norm();
-    return size > most ? Vec3(force * (most / size)) : force;
+    const double k = law.frequency * law.frequency * reduced_mass;
+    const double holding = k * stretch.norm(), longest = law.friction * pressed;
+    const bool slips = holding > longest;
+    if (slips) stretch *= longest / holding;
+    const double stored = 0.5 * k * stretch.squaredNorm();
+    if (stored > taken) stretch *= std::sqrt(std::max(0.0, taken) / stored);
+    const double c = slips ? 0.0 : kFrictionShare * reduced_mass / dt;
+    force = -k * stretch - c * slip_velocity;
+    slip = slip_velocity;
+    const double size = force.norm(), most = law.friction * normal_force;
+    if (size > most) force *= most / size;
+    return force;
   }
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/contact/piece_boxes.h"
+
 namespace limber {
 namespace {
 
@@ -19,51 +21,17 @@ bool has_corner(const std::array<std::int32_t, 3>& corners, std::int32_t point) 
   return corners[0] == point || corners[1] == point || corners[2] == point;
 }
 
-// Faces of a closed cell run along each side of theirs both ways, those of a flat one do not.
-bool is_closed(const GeometricModel& geometry, const Cell& cell) {
-  std::vector<std::array<std::int32_t, 2>> sides;
-  for (FaceId f : cell.faces) {
-    const auto& c = geometry.faces[f].corners;
-    for (int i = 0; i < 3; ++i) sides.push_back({c[i].value, c[(i + 1) % 3].value});
-  }
-  return std::all_of(sides.begin(), sides.end(), [&](const auto& side) {
-    return std::find(sides.begin(), sides.end(), std::array{side[1], side[0]}) != sides.end();
-  });
-}
-
 }  // namespace
 
 void OuterSurface::rebuild(const Lattice& lattice, const Components& pieces) {
-  compile(lattice);
-  group_points(lattice, pieces);
+  if (corners_.size() != lattice.face_corners.size()) {  // objects were added
+    corners_ = lattice.face_corners;
+    is_sheet_ = lattice.face_two_sided;
+  }
+  pieces_ = with_carriers(lattice, pieces);
   list_faces(lattice);
   list_points(lattice);
   link_points();
-}
-
-// Faces do not change while they are simulated, but objects may have been added.
-void OuterSurface::compile(const Lattice& lattice) {
-  for (const LatticeObject& object : lattice.objects) {
-    if (static_cast<std::size_t>(object.faces.end) <= corners_.size()) continue;
-    const GeometricModel& geometry = object.authored.geometry;
-    std::vector<std::uint8_t> cell_is_closed;
-    for (const Cell& cell : geometry.cells) cell_is_closed.push_back(is_closed(geometry, cell));
-    for (const Face& face : geometry.faces) {
-      const auto& [a, b, c] = face.corners;
-      const std::int32_t first = object.points.begin;
-      corners_.push_back({first + a.value, first + b.value, first + c.value});
-      is_sheet_.push_back(!face.cell.valid() || !cell_is_closed[face.cell.index()]);
-    }
-  }
-}
-
-void OuterSurface::group_points(const Lattice& lattice, const Components& pieces) {
-  group_ = pieces.label;
-  group_count_ = pieces.count;
-  for (std::int32_t p : lattice.carried_points) {
-    group_[p] = pieces.count + lattice.carrier[p];
-    group_count_ = std::max(group_count_, group_[p] + 1);
-  }
 }
 
 void OuterSurface::list_faces(const Lattice& lattice) {
@@ -99,11 +67,12 @@ void OuterSurface::list_points(const Lattice& lattice) {
 }
 
 void OuterSurface::link_points() {
-  faces_at_.start.assign(group_.size() + 1, 0);
+  faces_at_.start.assign(pieces_.label.size() + 1, 0);
   for (std::int32_t f : faces_) {
     for (std::int32_t p : corners_[f]) ++faces_at_.start[p + 1];
   }
-  for (std::size_t p = 0; p < group_.size(); ++p) faces_at_.start[p + 1] += faces_at_.start[p];
+  for (std::size_t p = 0; p < pieces_.label.size(); ++p)
+    faces_at_.start[p + 1] += faces_at_.start[p];
   faces_at_.items.resize(faces_at_.start.back());
   std::vector<std::int32_t> next(faces_at_.start.begin(), faces_at_.start.end() - 1);
   for (std::int32_t f : faces_) {

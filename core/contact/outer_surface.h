@@ -29,9 +29,10 @@ class OuterSurface {
   bool is_sheet(std::int32_t face) const { return is_sheet_[face]; }
 
   // Piece, or carrying body, of a point, 0 .. groups() - 1.
-  std::int32_t group(std::int32_t point) const { return group_[point]; }
-  std::int32_t group_of_face(std::int32_t face) const { return group_[corners_[face][0]]; }
-  std::int32_t groups() const { return group_count_; }
+  const Components& pieces() const { return pieces_; }
+  std::int32_t group(std::int32_t point) const { return pieces_.label[point]; }
+  std::int32_t group_of_face(std::int32_t face) const { return group(corners_[face][0]); }
+  std::int32_t groups() const { return pieces_.count; }
 
   // m, the mean longest side of a face; 0 without faces.
   double mean_face_size() const { return mean_face_size_; }
@@ -48,8 +49,6 @@ class OuterSurface {
   bool same_orientation(std::int32_t face, std::int32_t other) const;
 
  private:
-  void compile(const Lattice& lattice);
-  void group_points(const Lattice& lattice, const Components& pieces);
   void list_faces(const Lattice& lattice);
   void list_points(const Lattice& lattice);
   void link_points();
@@ -57,9 +56,8 @@ class OuterSurface {
   std::vector<std::array<std::int32_t, 3>> corners_;  // shape (F)
   std::vector<std::uint8_t> is_sheet_;                // shape (F)
   std::vector<std::int32_t> faces_, points_;
-  IndexRows faces_at_;               // shape (P)
-  std::vector<std::int32_t> group_;  // shape (P)
-  std::int32_t group_count_ = 0;
+  IndexRows faces_at_;  // shape (P)
+  Components pieces_;   // with carriers
   double mean_face_size_ = 0.0, least_face_size_ = 0.0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/piece_boxes.h"
 #include "core/contact/point_grid.h"
 
 namespace limber {
@@ -15,9 +16,6 @@ constexpr double kAuthoredDistanceShare = 0.9;
 // The list's skin as a share of the largest contact radius: a wider one lists more pairs, a
 // narrower one lists more often. 2 was the cheapest on a breaking teapot (1, 2, 3 and 4 tried).
 constexpr double kSkinShare = 2.0;
-
-// A test of two boxes takes about a nanosecond, a point in the grid some thirty.
-constexpr std::size_t kBoxTestsPerPoint = 32;
 
 // A point that has no edge from the start: it has no shape to keep.
 bool is_grain(const Lattice& lattice, std::int32_t p) { return lattice.point_edges[p].empty(); }
@@ -35,24 +33,6 @@ constexpr int kDeformationCheckInterval = 16;
 // Refreshes between two listings within pieces while things break: the ends of an edge that has
 // just broken are a tenth of its length from contact, which takes them tens of substeps.
 constexpr int kWithinInterval = 4;
-
-struct Bounds {
-  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-  void add(const Vec3& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  void grow(double by) {
-    low -= Vec3::Constant(by);
-    high += Vec3::Constant(by);
-  }
-  bool contains(const Vec3& p) const {
-    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
-  }
-  bool overlaps(const Bounds& o) const {
-    return (low.array() <= o.high.array()).all() && (o.low.array() <= high.array()).all();
-  }
-};
 
 bool ascending(const PointContacts::Pair& l, const PointContacts::Pair& r) {
   return l.a != r.a ? l.a < r.a : l.b < r.b;
@@ -83,7 +63,7 @@ void PointContacts::refresh(const Lattice& lattice, const Components& pieces, bo
                             bool carried_changed) {
   merge_fresh();
   if (topology_changed || carried_changed) {
-    group_points(lattice, pieces);
+    pieces_ = with_carriers(lattice, pieces);
     skin_ = kSkinShare * largest_radius(lattice, all_points(lattice));
   }
   if (skin_ == 0.0) return;
@@ -113,15 +93,6 @@ void PointContacts::merge_fresh() {
   within_.insert(within_.end(), fresh_.begin(), fresh_.end());
   std::inplace_merge(within_.begin(), within_.begin() + listed, within_.end(), ascending);
   fresh_.clear();
-}
-
-void PointContacts::group_points(const Lattice& lattice, const Components& pieces) {
-  group_ = pieces.label;
-  group_count_ = pieces.count;
-  for (std::int32_t p : lattice.carried_points) {
-    group_[p] = pieces.count + lattice.carrier[p];
-    group_count_ = std::max(group_count_, group_[p] + 1);
-  }
 }
 
 bool PointContacts::moved_too_far(const Lattice& lattice) const {
@@ -155,32 +126,16 @@ bool PointContacts::deformed_too_far(const Lattice& lattice, const Components& p
   return false;
 }
 
-// Only points inside another group's bounding box can meet a point of it. Where there are so many
-// groups that to compare them costs more than it saves, as in a heap of grains: all points.
-std::vector<std::int32_t> PointContacts::points_near_other_groups(const Lattice& lattice) const {
+// Only points inside another piece's box can meet a point of it.
+std::vector<std::int32_t> PointContacts::points_near_other_pieces(const Lattice& lattice) const {
   std::vector<std::int32_t> points = all_points(lattice);
-  const auto groups = static_cast<std::size_t>(group_count_);
-  if (groups * groups > kBoxTestsPerPoint * points.size()) return points;
-  std::vector<Bounds> bounds(groups);
-  for (std::int32_t p : points) bounds[group_[p]].add(lattice.motion[p].position);
-  for (Bounds& b : bounds) b.grow(skin_ + 2.0 * skin_ / kSkinShare);
-  std::vector<std::vector<std::int32_t>> neighbours(bounds.size());
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    for (std::size_t j = 0; j < bounds.size(); ++j) {
-      if (i != j && bounds[i].overlaps(bounds[j])) {
-        neighbours[i].push_back(static_cast<std::int32_t>(j));
-      }
-    }
-  }
-  std::vector<std::int32_t> near;
-  for (std::int32_t p : points) {
-    const auto& others = neighbours[group_[p]];
-    const bool inside = std::any_of(others.begin(), others.end(), [&](std::int32_t g) {
-      return bounds[g].contains(lattice.motion[p].position);
-    });
-    if (inside) near.push_back(p);
-  }
-  return near;
+  if (!PieceBoxes::pay(pieces_.count, points.size())) return points;
+  const PieceBoxes boxes(lattice, points, pieces_, skin_ + 2.0 * skin_ / kSkinShare);
+  std::erase_if(points, [&](std::int32_t p) {
+    const Vec3& x = lattice.motion[p].position;
+    return !boxes.reaches_into_another(Box3(x, x), pieces_.label[p]);
+  });
+  return points;
 }
 
 template <class Accept>
@@ -207,12 +162,13 @@ void PointContacts::list_between(const Lattice& lattice) {
   old_between_.swap(between_);
   // Two carried points belong to rigid bodies: their own engine's business.
   between_ =
-      near_pairs(lattice, points_near_other_groups(lattice), [&](std::int32_t p, std::int32_t q) {
-        return group_[p] != group_[q] &&
+      near_pairs(lattice, points_near_other_pieces(lattice), [&](std::int32_t p, std::int32_t q) {
+        return pieces_.label[p] != pieces_.label[q] &&
                (lattice.role[p] == PointRole::kDynamic || lattice.role[q] == PointRole::kDynamic);
       });
   // A piece may have split between two points of it: they are in the list above now.
-  std::erase_if(within_, [&](const Pair& pair) { return group_[pair.a] != group_[pair.b]; });
+  std::erase_if(within_,
+                [&](const Pair& pair) { return pieces_.label[pair.a] != pieces_.label[pair.b]; });
 }
 
 void PointContacts::list_within(const Lattice& lattice) {
@@ -220,7 +176,7 @@ void PointContacts::list_within(const Lattice& lattice) {
   within_listing_.remember(lattice, lattice.dynamic_points);
   old_within_.swap(within_);
   within_ = near_pairs(lattice, lattice.dynamic_points, [&](std::int32_t p, std::int32_t q) {
-    return group_[p] == group_[q] && !joined(lattice, p, q);
+    return pieces_.label[p] == pieces_.label[q] && !joined(lattice, p, q);
   });
 }
 

@@ -58,7 +58,6 @@ class PointContacts {
   };
 
   void merge_fresh();
-  void group_points(const Lattice& lattice, const Components& pieces);
   bool moved_too_far(const Lattice& lattice) const;
   bool deformed_too_far(const Lattice& lattice, const Components& pieces) const;
   void list_between(const Lattice& lattice);
@@ -66,7 +65,7 @@ class PointContacts {
   template <class Accept>
   Pairs near_pairs(const Lattice& lattice, const std::vector<std::int32_t>& points,
                    Accept accept) const;
-  std::vector<std::int32_t> points_near_other_groups(const Lattice& lattice) const;
+  std::vector<std::int32_t> points_near_other_pieces(const Lattice& lattice) const;
   Pair make_pair(const Lattice& lattice, std::int32_t p, std::int32_t q) const;
   double eased_contact_distance(const Lattice& lattice, std::int32_t p, std::int32_t q,
                                 double contact_distance) const;
@@ -78,8 +77,7 @@ class PointContacts {
   Pairs fresh_;
   Pairs old_between_, old_within_;
   Listing between_listing_, within_listing_;
-  std::vector<std::int32_t> group_;  // shape (P): piece, or carrying body, of each point
-  std::int32_t group_count_ = 0;
+  Components pieces_;  // with carriers
   bool within_stale_ = true;
   int refreshes_ = 0;
   double skin_ = 0.0;  // m

@@ -2,24 +2,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace limber {
 namespace {
 
-NearestPoint nearest_at(const Vec3& point, const Triangle& t, const Vec3& weights) {
-  return {weights, (point - point_at(t, weights)).squaredNorm()};
+// Is the corner nearer than all of the two sides that meet there?
+bool is_beyond_corner(const Vec3& point, const Triangle& t, int i) {
+  const Vec3 way = point - t[i];
+  const Vec3 next = t[(i + 1) % 3] - t[i], last = t[(i + 2) % 3] - t[i];
+  return next.dot(way) <= 0.0 && last.dot(way) <= 0.0;
+}
+
+// Barycentric, of the projection on the triangle's plane: areas of the parts towards the other two
+// corners. Zero for a triangle without area. Differences have names because Eigen would build a
+// nested one anew for each component of a cross product, five times the work.
+Vec3 weights_of_projection(const Vec3& point, const Triangle& t) {
+  const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = point - t[0];
+  const Vec3 normal = ab.cross(ac);
+  const double squared = normal.squaredNorm();
+  if (squared == 0.0) return Vec3::Zero();
+  const double wb = normal.dot(ap.cross(ac)) / squared;
+  const double wc = normal.dot(ab.cross(ap)) / squared;
+  return {1.0 - wb - wc, wb, wc};
 }
 
 // Nearest point of the side from corner i to corner j.
 NearestPoint nearest_on_side(const Vec3& point, const Triangle& t, int i, int j) {
-  const Vec3 side = t[j] - t[i];
+  const Vec3 side = t[j] - t[i], way = point - t[i];
   const double squared = side.squaredNorm();
-  const double along =
-      squared > 0.0 ? std::clamp((point - t[i]).dot(side) / squared, 0.0, 1.0) : 0.0;
+  const double along = squared > 0.0 ? std::clamp(way.dot(side) / squared, 0.0, 1.0) : 0.0;
   Vec3 weights = Vec3::Zero();
   weights[i] = 1.0 - along;
   weights[j] = along;
-  return nearest_at(point, t, weights);
+  return {weights, (point - point_at(t, weights)).squaredNorm()};
 }
 
 // The cubic c0 + c1 t + c2 t^2 + c3 t^3.
@@ -88,21 +104,31 @@ bool passes_within(double t, const Vec3& point_from, const Vec3& point_to, const
 }  // namespace
 
 NearestPoint nearest_on_triangle(const Vec3& point, const Triangle& t) {
-  const Vec3 normal = twice_area_vector(t);
-  const double squared = normal.squaredNorm();
-  if (squared > 0.0) {
-    // Weights of the projection: areas of the parts towards the other two corners.
-    const double wb = normal.dot((point - t[0]).cross(t[2] - t[0])) / squared;
-    const double wc = normal.dot((t[1] - t[0]).cross(point - t[0])) / squared;
-    const Vec3 weights(1.0 - wb - wc, wb, wc);
-    if (weights.minCoeff() > 0.0) return nearest_at(point, t, weights);
+  for (int i = 0; i < 3; ++i) {
+    if (is_beyond_corner(point, t, i)) return {Vec3::Unit(i), (point - t[i]).squaredNorm()};
   }
-  NearestPoint nearest = nearest_on_side(point, t, 0, 1);
-  for (const NearestPoint& other :
-       {nearest_on_side(point, t, 1, 2), nearest_on_side(point, t, 2, 0)}) {
+  const Vec3 weights = weights_of_projection(point, t);
+  if (weights[0] > 0.0 && weights[1] > 0.0 && weights[2] > 0.0) {
+    return {weights, (point - point_at(t, weights)).squaredNorm()};
+  }
+  NearestPoint nearest{Vec3::Zero(), std::numeric_limits<double>::infinity()};
+  for (int i = 0; i < 3; ++i) {
+    if (weights[(i + 2) % 3] > 0.0) continue;
+    const NearestPoint other = nearest_on_side(point, t, i, (i + 1) % 3);
     if (other.squared_distance < nearest.squared_distance) nearest = other;
   }
   return nearest;
+}
+
+bool line_passes(const Triangle& triangle, const Vec3& a, const Vec3& b) {
+  constexpr double kHair = 1e-12;  // of the triangle's distance: some thousand roundings
+  const Vec3 way = b - a;
+  const Vec3 u = triangle[0] - a, v = triangle[1] - a, w = triangle[2] - a;
+  // Six times the volumes of the tetrahedra over the way and each side.
+  const double on_0 = way.dot(u.cross(v)), on_1 = way.dot(v.cross(w)), on_2 = way.dot(w.cross(u));
+  const double hair = kHair * way.norm() * (u.squaredNorm() + v.squaredNorm() + w.squaredNorm());
+  return (on_0 >= -hair && on_1 >= -hair && on_2 >= -hair) ||
+         (on_0 <= hair && on_1 <= hair && on_2 <= hair);
 }
 
 std::array<Vec3, 3> weight_gradients(const Triangle& t) {

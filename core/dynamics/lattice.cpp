@@ -234,6 +234,29 @@ IdRange<IdType> next_range(std::size_t first, std::size_t count) {
   return {static_cast<std::int32_t>(first), static_cast<std::int32_t>(first + count)};
 }
 
+// Faces of a closed cell run along each side of theirs both ways, those of a flat one do not.
+bool is_closed(const GeometricModel& geometry, const Cell& cell) {
+  std::vector<std::array<std::int32_t, 2>> sides;
+  for (FaceId f : cell.faces) {
+    const auto& c = geometry.faces[f].corners;
+    for (int i = 0; i < 3; ++i) sides.push_back({c[i].value, c[(i + 1) % 3].value});
+  }
+  return std::all_of(sides.begin(), sides.end(), [&](const auto& side) {
+    return std::find(sides.begin(), sides.end(), std::array{side[1], side[0]}) != sides.end();
+  });
+}
+
+void append_faces(Lattice& lattice, const GeometricModel& geometry, std::int32_t first_point) {
+  std::vector<std::uint8_t> closed;
+  for (const Cell& cell : geometry.cells) closed.push_back(is_closed(geometry, cell));
+  for (const Face& face : geometry.faces) {
+    const auto& [a, b, c] = face.corners;
+    lattice.face_corners.push_back(
+        {first_point + a.value, first_point + b.value, first_point + c.value});
+    lattice.face_two_sided.push_back(!face.cell.valid() || !closed[face.cell.index()]);
+  }
+}
+
 }  // namespace
 
 bool joined(const Lattice& lattice, std::int32_t p, std::int32_t q) {
@@ -273,6 +296,7 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   append(lattice.breaking.cell_valid, state.cell_valid);
   append(lattice.breaking.face_external, state.face_external);
   append_points(lattice, model);
+  append_faces(lattice, model.geometry, object.points.begin);
   append_springs(lattice, model, object.points.begin);
   append_point_links(lattice, model.geometry, object);
   object.authored = std::move(model);

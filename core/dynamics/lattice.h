@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -67,6 +68,8 @@ struct Lattice {
   std::vector<Spring> springs;                 // shape (E), as added
   IndexRows point_edges;                       // point -> edges
   std::vector<std::int32_t> point_neighbours;  // other end of each edge in point_edges.items
+  std::vector<std::array<std::int32_t, 3>> face_corners;  // shape (F): points, as authored
+  std::vector<std::uint8_t> face_two_sided;  // shape (F): of a sheet, or of a cell that is flat
   BreakingTopology topology;
   BreakingState breaking;
 

@@ -6,7 +6,7 @@ namespace limber {
 namespace {
 
 bool turns_about_all_axes(const RigidBody& body) {
-  return body.inverse_inertia_local.diagonal().minCoeff() > 0.0;
+  return body.inverse_inertia_local.diagonal().minCoeff() > 0.0 && body.turns_freely();
 }
 
 bool is_symmetric(const RigidBody& body) {
@@ -18,11 +18,13 @@ bool is_symmetric(const RigidBody& body) {
 
 void refresh_rotation(RigidBody& body) {
   body.rotation = body.orientation.toRotationMatrix();
-  body.inverse_inertia = body.rotation * body.inverse_inertia_local * body.rotation.transpose();
+  body.inverse_inertia = body.angular_factor.asDiagonal() * body.rotation *
+                         body.inverse_inertia_local * body.rotation.transpose() *
+                         body.angular_factor.asDiagonal();
 }
 
 void apply_forces(RigidBody& body, double dt) {
-  body.velocity += body.force * (body.inverse_mass * dt);
+  body.velocity += body.linear_factor.cwiseProduct(body.force) * (body.inverse_mass * dt);
   body.angular_velocity += body.inverse_inertia * body.torque * dt;
   body.force.setZero();
   body.torque.setZero();

@@ -16,17 +16,21 @@ struct RigidBody {
   double inverse_mass = 0.0;                  // 1/kg, 0: immovable, keeps its velocities
   Mat3 inverse_inertia_local = Mat3::Zero();  // 1/(kg m^2), own axes: diagonal; 0: does not turn
 
+  // Of what an impulse moves, along and about the world's axes: 0 for an axis that is locked.
+  Vec3 linear_factor = Vec3::Ones(), angular_factor = Vec3::Ones();
+
   Vec3 position = Vec3::Zero();                                     // of the centre of mass, m
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // own axes to world
   Mat3 rotation = Mat3::Identity();                                 // the same as a matrix
-  Mat3 inverse_inertia = Mat3::Zero();                              // world axes
-  Vec3 velocity = Vec3::Zero();                                     // m/s
-  Vec3 angular_velocity = Vec3::Zero();                             // rad/s
+  Mat3 inverse_inertia = Mat3::Zero();   // world axes, without those that are locked
+  Vec3 velocity = Vec3::Zero();          // m/s
+  Vec3 angular_velocity = Vec3::Zero();  // rad/s
 
   Vec3 force = Vec3::Zero();   // of this step, N
   Vec3 torque = Vec3::Zero();  // of this step about the centre of mass, N m
 
   bool movable() const { return inverse_mass > 0.0; }
+  bool turns_freely() const { return angular_factor == Vec3::Ones(); }
   bool moves() const { return !velocity.isZero(0.0) || !angular_velocity.isZero(0.0); }
   Vec3 velocity_at(const Vec3& point) const {
     return velocity + angular_velocity.cross(point - position);
@@ -36,23 +40,23 @@ struct RigidBody {
     torque += (at - position).cross(f);
   }
   void apply_impulse(const Vec3& impulse, const Vec3& at) {
-    velocity += inverse_mass * impulse;
+    velocity += inverse_mass * linear_factor.cwiseProduct(impulse);
     angular_velocity += inverse_inertia * (at - position).cross(impulse);
   }
   // 1 / effective mass for an impulse along n at a point.
   double inverse_effective_mass(const Vec3& at, const Vec3& n) const {
     const Vec3 arm = (at - position).cross(n);
-    return inverse_mass + arm.dot(inverse_inertia * arm);
+    return inverse_mass * n.dot(linear_factor.cwiseProduct(n)) + arm.dot(inverse_inertia * arm);
   }
 };
 
-// What follows from the orientation: call it after setting that or the inertia.
+// What follows from the orientation: call it after setting that, the inertia or the factors.
 void refresh_rotation(RigidBody& body);
 
 // The force and torque of this step become velocity, and are cleared.
 void apply_forces(RigidBody& body, double dt);
 
-// Moves the pose by the present velocity. A body that can turn about every axis turns as a free one
+// Moves the pose by the present velocity. A body that may turn about every axis turns as a free one
 // does, its angular momentum kept to rounding (rotate_freely()); any other keeps its angular
 // velocity.
 void advance_pose(RigidBody& body, double dt);

@@ -8,6 +8,7 @@
 namespace limber {
 
 void BoundaryTracker::reset(const BreakingState& state) {
+  ++revision_;
   faces_.clear();
   place_.assign(state.face_external.size(), -1);
   for (std::size_t f = 0; f < state.face_external.size(); ++f) {
@@ -30,6 +31,7 @@ void BoundaryTracker::update(const BreakingTopology& topology, const BreakingRes
 void BoundaryTracker::leave(std::int32_t face) {
   const std::int32_t place = place_[face];
   if (place < 0) return;
+  ++revision_;
   place_[face] = -1;
   const std::int32_t last = faces_.back();
   faces_.pop_back();
@@ -40,6 +42,7 @@ void BoundaryTracker::leave(std::int32_t face) {
 
 void BoundaryTracker::enter(std::int32_t face) {
   if (place_[face] >= 0) return;
+  ++revision_;
   place_[face] = static_cast<std::int32_t>(faces_.size());
   faces_.push_back(face);
 }

@@ -24,6 +24,9 @@ class BoundaryTracker {
   const std::vector<std::int32_t>& faces() const { return faces_; }
   bool contains(std::int32_t face) const { return place_[face] >= 0; }
 
+  // Another number after every change.
+  std::uint64_t revision() const { return revision_; }
+
   // Those of one object, ascending and numbered as in its model. `faces`: its share of the indices.
   std::vector<FaceId> faces_of(IdRange<FaceId> faces) const;
 
@@ -37,6 +40,7 @@ class BoundaryTracker {
 
   std::vector<std::int32_t> faces_;
   std::vector<std::int32_t> place_;  // shape (faces of the state): where in faces_, or -1
+  std::uint64_t revision_ = 0;
 };
 
 }  // namespace limber

@@ -75,7 +75,7 @@ void refuse_unwritable_existing(const fs::path& target) {
 fs::path unused_name(const fs::path& target) {
   static std::atomic<int> count = 0;
   return target.parent_path() /
-         ("." + target.filename().string() + "." + std::to_string(::getpid()) + "-" +
+         ('.' + target.filename().string() + "." + std::to_string(::getpid()) + "-" +
           std::to_string(++count) + ".tmp");
 }
 
@@ -86,8 +86,7 @@ void refuse_writing(const fs::path& target, int error) {
                     remedy_for(error)});
 }
 
-AtomicFile::AtomicFile(const fs::path& target)
-    : target_(resolved(target)) {
+AtomicFile::AtomicFile(const fs::path& target) : target_(resolved(target)) {
   refuse_unwritable_existing(target_);
   if (is_special(target_))
     throw InputError({target.string(), "is no regular file", "name a file on a disk"});

@@ -39,7 +39,7 @@ std::string range_text(const Range& range) {
   return fmt::format("{} to {}", significant(range.least), significant(range.most));
 }
 
-std::string section(const TextTable& table) { return "\n" + table.text(); }
+std::string section(const TextTable& table) { return fmt::format("\n{}", table.text()); }
 
 std::string headline(const std::string& file, const Seal& seal, const ModelFacts& facts) {
   return fmt::format("{}: limber {}, version {}, {} bytes, checksum {}\n\"{}\"\n", file, seal.kind,

@@ -183,11 +183,11 @@ std::string case_row(const StabilityResult& r) {
   std::string row =
       fmt::format("{},{},{}", csv_text(c.sweep), csv_text(c.scheme.name), name_of(c.model));
   for (double x : {c.stiffness, c.damping_ratio, c.mass_ratio, c.size, c.place, c.speed}) {
-    row += "," + csv_number(x);
+    row += ',' + csv_number(x);
   }
   row += fmt::format(",{},{},{},{}", name_of(c.motion), name_of(c.defect), c.contacts ? 1 : 0,
                      name_of(c.choice));
-  for (double x : {r.step, r.limit, r.growth}) row += "," + csv_number(x);
+  for (double x : {r.step, r.limit, r.growth}) row += ',' + csv_number(x);
   return row +
          fmt::format(",{},{},{}\n", name_of(r.outcome), csv_text(r.message), csv_text(r.violation));
 }

@@ -15,8 +15,11 @@ TEST(Debris, BornInsideOfTheFloorComesToRestOnIt) {
   world.add(std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)), 0.0,
             Vec3::Zero());
   CoSimulation simulation(*world, settings_for(Representation::kAlwaysFlexible));
-  simulation.add(make_block({.cells = {6, 4, 4}, .spacing = 0.05, .modulus = 2e7,
-                             .strain_at_break = 0.005, .damping_ratio = 0.2},
+  simulation.add(make_block({.cells = {6, 4, 4},
+                             .spacing = 0.05,
+                             .modulus = 2e7,
+                             .strain_at_break = 0.005,
+                             .damping_ratio = 0.2},
                             {0.0, 0.4, 0.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 8.0}));
   world.run(1.5, kTick);
   ASSERT_FALSE(simulation.failure());

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "tests/bridge/world.h"
+#include "tests/bridge/shapes.h"
 
 namespace limber::bullet::test {
 namespace {
@@ -31,7 +31,7 @@ Mat3 random_face(std::mt19937& engine, double size) {
 
 void expect_deepest(const btCollisionShape& shape) {
   std::mt19937 engine(1);
-  const ContactPart part = contact_parts(shape).at(0);
+  const ContactPart part = only_part(shape);
   int inside = 0;
   for (int i = 0; i < 1000; ++i) {
     const Mat3 corners = random_face(engine, 0.7);
@@ -62,7 +62,7 @@ TEST(FacePenetration, SeesARodBetweenThePoints) {
   corners.col(0) = Vec3(-0.4, 0.004, -0.3);
   corners.col(1) = Vec3(0.6, 0.004, -0.3);
   corners.col(2) = Vec3(0.1, 0.004, 0.7);
-  const ContactPart part = contact_parts(rod).at(0);
+  const ContactPart part = only_part(rod);
   const FacePenetration found = deepest_place(part, corners, kTolerance);
   EXPECT_NEAR(found.depth, 0.006, 1e-6);
   for (int i = 0; i < 3; ++i) EXPECT_LT(penetration(part, corners.col(i)).depth, -0.05);
@@ -80,7 +80,7 @@ TEST(FacePenetration, SeesACornerThroughTheMiddle) {
     corners.col(i) =
         middle + 0.5 * (Eigen::AngleAxisd(2.0 * i * EIGEN_PI / 3.0, diagonal) * across);
   }
-  const FacePenetration found = deepest_place(contact_parts(box).at(0), corners, kTolerance);
+  const FacePenetration found = deepest_place(only_part(box), corners, kTolerance);
   EXPECT_NEAR(found.depth, 0.01 / std::sqrt(3.0), 1e-6);
   EXPECT_LT((found.weights - Vec3::Constant(1.0 / 3.0)).norm(), 1e-4);
 }
@@ -91,7 +91,7 @@ TEST(FacePenetration, OfAFaceThatEntersWithACornerIsThatCorner) {
   corners.col(0) = Vec3(0.0, 1.5, 0.0);
   corners.col(1) = Vec3(0.1, 0.9, 0.0);
   corners.col(2) = Vec3(0.5, 1.5, 0.4);
-  const FacePenetration found = deepest_place(contact_parts(box).at(0), corners, kTolerance);
+  const FacePenetration found = deepest_place(only_part(box), corners, kTolerance);
   EXPECT_EQ(found.weights, Vec3::UnitY());
   EXPECT_NEAR(found.depth, 0.1, 1e-6);
 }

@@ -24,9 +24,6 @@ const Block kBrick{.cells = {4, 2, 2},
 CoSimulationSettings sensitive() {
   CoSimulationSettings settings;
   settings.switching.visible_strain = 0.002;
-  // How long a landed brick rocks is chaotic: of 40 heights from 0.55 to 0.65 m, 3 rock by more than a
-  // millimetre after a second with springs in double precision, and 6 with single.
-  settings.springs = SpringPrecision::kDouble;
   return settings;
 }
 
@@ -106,20 +103,32 @@ TEST(DroppedBrick, GainsNoEnergy) {
   }
 }
 
-TEST(DroppedBrick, EndsAsABodyAtRestOnTheFloor) {
-  const Drop result = drop(0.6, 4.0);
-  const Tick& last = result.ticks.back();
-  EXPECT_FALSE(last.flexible);
-  EXPECT_LT(last.velocity.norm(), 0.01);
-  EXPECT_NEAR(last.centre, 0.05, 0.002);
-  // The floor gives way to nothing: from a second after the impact on it neither sinks nor jumps.
+// m, between the highest and the lowest centre from a second after the impact on.
+double rocking(const Drop& drop) {
   double low = 1e9, high = -1e9;
-  for (const Tick& tick : result.ticks) {
+  for (const Tick& tick : drop.ticks) {
     if (tick.time < 1.5) continue;
     low = std::min(low, tick.centre);
     high = std::max(high, tick.centre);
   }
-  EXPECT_LT(high - low, 0.001);
+  return high - low;
+}
+
+// The floor gives way to nothing: a landed brick neither sinks nor jumps. How long it rocks is
+// chaotic: 3 to 6 of these 40 still do so by 1 to 2.5 mm, in either precision.
+TEST(DroppedBrick, EndsAsABodyAtRestOnTheFloor) {
+  int rock = 0;
+  for (int n = 0; n < 40; ++n) {
+    const Drop result = drop(0.55 + 0.0025 * n, 4.0);
+    const Tick& last = result.ticks.back();
+    EXPECT_FALSE(last.flexible);
+    EXPECT_LT(last.velocity.norm(), 0.05);
+    EXPECT_NEAR(last.centre, 0.05, 0.002);
+    const double height = rocking(result);
+    EXPECT_LT(height, 0.004);
+    if (height > 0.001 || last.velocity.norm() > 0.01) ++rock;
+  }
+  EXPECT_LE(rock, 10);
 }
 
 // --- a body that is found inside of another ------------------------------------------------------

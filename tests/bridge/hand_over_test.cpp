@@ -4,35 +4,16 @@
 
 #include <Eigen/Dense>
 #include <numeric>
-#include <random>
 
 #include "tests/bridge/measure.h"
 #include "tests/bridge/models.h"
+#include "tests/bridge/random.h"
 #include "tests/bridge/world.h"
 
 namespace limber::bullet::test {
 namespace {
 
 constexpr int kRuns = 30;
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  Vec3 vector(double largest) {
-    return {between(-largest, largest), between(-largest, largest), between(-largest, largest)};
-  }
-  Mat3 rotation() {
-    return Eigen::Quaterniond(between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1))
-        .normalized()
-        .toRotationMatrix();
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 // One object's lattice in a world without gravity, and all its points.
 struct Subject {
@@ -52,10 +33,10 @@ struct Subject {
 std::unique_ptr<Subject> random_subject(Random& random) {
   const Block block{.cells = {3, 2, 1}, .spacing = 0.1, .mass = random.between(0.1, 50.0)};
   PhysicalModel model = make_block(block, Vec3::Zero());
-  for (Vec3& x : model.geometry.points) x += random.vector(0.004);
-  place(model, random.rotation(), random.vector(10.0));
-  set_in_motion(model, random.vector(5.0), random.vector(10.0));
-  for (PointAttributes& point : model.points) point.velocity += random.vector(0.5);
+  for (Vec3& x : model.geometry.points) x += random.in_cube(0.004);
+  place(model, random.rotation(), random.in_cube(10.0));
+  set_in_motion(model, random.in_cube(5.0), random.in_cube(10.0));
+  for (PointAttributes& point : model.points) point.velocity += random.in_cube(0.5);
   return std::make_unique<Subject>(std::move(model));
 }
 
@@ -177,9 +158,9 @@ PhysicalModel skeleton(const std::vector<Vec3>& points) {
 }
 
 void expect_kept(PhysicalModel model, Random& random) {
-  place(model, random.rotation(), random.vector(1.0));
-  set_in_motion(model, random.vector(3.0), random.vector(5.0));
-  for (PointAttributes& point : model.points) point.velocity += random.vector(0.5);
+  place(model, random.rotation(), random.in_cube(1.0));
+  set_in_motion(model, random.in_cube(3.0), random.in_cube(5.0));
+  for (PointAttributes& point : model.points) point.velocity += random.in_cube(0.5);
   Subject subject(std::move(model));
   const Sums before = subject.sums();
   std::unique_ptr<RigidProxy> proxy;

@@ -205,9 +205,9 @@ void expect_exchange(const Hit& hit, const Outcome& outcome) {
 // Each body's velocity, as a share of what the hit may change of it.
 void expect_same(const Hit& hit, const Outcome& outcome, const Outcome& reference) {
   const double of_partner = kSpeed / (1.0 + hit.ratio), of_lattice = kSpeed - of_partner;
-  // Measured 1.3e-6 in float64, where a box of a hundredth of the mass is struck off its centre, and
-  // 4.2e-3 in float32, where the tip of a hull meets a point head on: which of its sides comes first
-  // is a matter of rounding.
+  // Measured 1.3e-6 in float64, where a box of a hundredth of the mass is struck off its centre,
+  // and 4.2e-3 in float32, where the tip of a hull meets a point head on: which of its sides comes
+  // first is a matter of rounding.
   const double tolerance = by_precision(5e-3, 2e-6);
   EXPECT_LT((outcome.partner_velocity - reference.partner_velocity).norm(), tolerance * of_partner);
   EXPECT_LT((outcome.lattice_velocity - reference.lattice_velocity).norm(), tolerance * of_lattice);

@@ -162,8 +162,8 @@ TEST(Debris, IsCountedAndAgesAway) {
     CoSimulationSettings settings;
     settings.debris_lifetime = lifetime;
     CoSimulation simulation(*world, settings);
-    simulation.add(make_block({.strain_at_break = 0.01}, {0.0, 0.4, 0.0}, {0.0, -25.0, 0.0},
-                              {4.0, 3.0, 2.0}));
+    simulation.add(
+        make_block({.strain_at_break = 0.01}, {0.0, 0.4, 0.0}, {0.0, -25.0, 0.0}, {4.0, 3.0, 2.0}));
     world.run(1.0, kTick);
     return simulation.counters();
   };

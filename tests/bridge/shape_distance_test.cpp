@@ -93,7 +93,6 @@ TEST_P(ShapeDistance, NormalLeadsToTheSurface) {
     ASSERT_NEAR(penetration(part, x + at.depth * at.normal).depth, 0.0, 2e-6) << x.transpose();
     const Vec3 y = x + 1e-3 * random.direction();
     ASSERT_LE(std::abs(penetration(part, y).depth - at.depth), 1e-3 * (1.0 + 1e-6));
-    ASSERT_EQ(contains(part, x), at.depth >= 0.0);
   }
 }
 
@@ -159,7 +158,8 @@ TEST(ConvexPlanes, DistanceOutsideIsThatOfTheNearestTriangle) {
     if (depth > part.margin) continue;
     double nearest = 1e300;
     for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}) {
-      nearest = std::min(nearest, (foot_on_triangle({v[a], v[b], v[c]}, x).point - x).norm());
+      const NearestPoint on_side = nearest_on_triangle(x, {v[a], v[b], v[c]});
+      nearest = std::min(nearest, std::sqrt(on_side.squared_distance));
     }
     ASSERT_NEAR(depth, part.margin - nearest, by_precision(1e-7, 1e-12)) << x.transpose();
   }

@@ -124,7 +124,7 @@ TEST(TrianglePatch, HasNoHolesAtCornersAndEdges) {
   add_net(mesh, 20, 0.05, hills);
   const ContactPart part = only_part(mesh.shape());
   Random random(1);
-  for (const Corners& c : mesh.corners) {
+  for (const Triangle& c : mesh.corners) {
     for (int k = 0; k < 3; ++k) {
       for (double share : {0.0, 0.25, 0.5, random.between(0.0, 1.0)}) {
         const Vec3 on = c[k] + share * (c[(k + 1) % 3] - c[k]);
@@ -141,8 +141,8 @@ TEST(TrianglePatch, HasNoHolesAtCornersAndEdges) {
 
 double brute_force_distance(const Mesh& mesh, const Vec3& at) {
   double nearest = 1e300;
-  for (const Corners& c : mesh.corners) {
-    nearest = std::min(nearest, (foot_on_triangle(c, at).point - at).norm());
+  for (const Triangle& c : mesh.corners) {
+    nearest = std::min(nearest, std::sqrt(nearest_on_triangle(at, c).squared_distance));
   }
   return nearest;
 }

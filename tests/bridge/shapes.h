@@ -20,6 +20,7 @@
 #include "bullet_bridge/shapes/point_track.h"
 #include "bullet_bridge/shapes/shape_cache.h"
 #include "bullet_bridge/shapes/triangle_patch.h"
+#include "tests/bridge/random.h"
 
 namespace limber::bullet::test {
 
@@ -34,26 +35,6 @@ inline std::vector<ContactPart> all_parts(const btCollisionShape& shape, double 
 inline ContactPart only_part(const btCollisionShape& shape, double reach = 3.0) {
   return all_parts(shape, reach).at(0);
 }
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  Vec3 in_cube(double half) {
-    return {between(-half, half), between(-half, half), between(-half, half)};
-  }
-  Vec3 direction() {
-    Vec3 v;
-    do v = in_cube(1.0);
-    while (v.norm() > 1.0 || v.norm() < 0.01);
-    return v.normalized();
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 // Points evenly about a sphere (golden spiral).
 inline std::vector<Vec3> sphere_points(int count, double radius) {
@@ -94,7 +75,7 @@ class Mesh {
   }
   btTriangleMesh& triangles() { return triangles_; }
 
-  std::vector<Corners> corners;
+  std::vector<Triangle> corners;
 
  private:
   btTriangleMesh triangles_;

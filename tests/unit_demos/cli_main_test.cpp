@@ -15,7 +15,9 @@ namespace limber::demos {
 namespace {
 
 using test::contents;
+using test::expect_refused;
 using test::limber;
+using test::PathVariable;
 using test::Said;
 using test::TemporaryFolder;
 using test::write;
@@ -24,29 +26,6 @@ using testing::Not;
 using testing::StartsWith;
 
 std::string any_scene() { return scene_library().front().name; }
-
-// Sets PATH for the life of one test.
-class PathVariable {
- public:
-  explicit PathVariable(const std::string& value) : old_(std::getenv("PATH")) {
-    ::setenv("PATH", value.c_str(), 1);
-  }
-  ~PathVariable() { ::setenv("PATH", old_.c_str(), 1); }
-  PathVariable(const PathVariable&) = delete;
-  PathVariable& operator=(const PathVariable&) = delete;
-
- private:
-  std::string old_;
-};
-
-// limber: WHERE: WHAT; REMEDY on one line, and nothing on standard output.
-void expect_refused(const std::vector<std::string>& arguments) {
-  SCOPED_TRACE(testing::PrintToString(arguments));
-  const Said said = limber(arguments);
-  EXPECT_EQ(said.code, 2);
-  EXPECT_EQ(said.out, "");
-  EXPECT_THAT(said.err, testing::MatchesRegex("limber: [^:\n]+: [^;\n]+; [^\n]+\n"));
-}
 
 TEST(CliMain, RefusesBadUsage) {
   const std::string scene = any_scene();

@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -15,19 +14,13 @@ namespace limber::demos {
 namespace {
 
 using test::contents;
+using test::expect_refused;
 using test::limber;
+using test::PathVariable;
 using test::Said;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-void expect_refused(const std::vector<std::string>& arguments) {
-  SCOPED_TRACE(testing::PrintToString(arguments));
-  const Said said = limber(arguments);
-  EXPECT_EQ(said.code, 2);
-  EXPECT_EQ(said.out, "");
-  EXPECT_THAT(said.err, testing::MatchesRegex("limber: [^:\n]+: [^;\n]+; [^\n]+\n"));
-}
 
 TEST(StabilityCommand, RefusesBadUsage) {
   const TemporaryFolder folder;
@@ -42,10 +35,8 @@ TEST(StabilityCommand, RefusesBadUsage) {
 
 TEST(StabilityCommand, SaysThatGnuplotIsMissing) {
   const TemporaryFolder folder;
-  const std::string path = std::getenv("PATH");
-  ::setenv("PATH", "/nonexistent", 1);
+  const PathVariable nowhere("/nonexistent");
   const Said said = limber({"stability", "--fast", "-o", (folder / ".").string()});
-  ::setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(said.code, 2);
   EXPECT_THAT(said.err, StartsWith("limber: gnuplot: cannot be started"));
   EXPECT_THAT(said.err, HasSubstr("apt install gnuplot-nox"));

@@ -45,6 +45,55 @@ TEST(Triangle, NearestPointOfALineIsOnIt) {
   EXPECT_NEAR(nearest_on_triangle({4.0, 0.0, 0.0}, line).squared_distance, 1.0, 1e-15);
 }
 
+// A metre long and w wide, turned; points above it: their distance is their height.
+TEST(Triangle, NearestPointOfASliverIsAsExactAsOfOthers) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (double w : {1e-2, 1e-4, 1e-6, 1e-8, 1e-12}) {
+    for (int trial = 0; trial < 1000; ++trial) {
+      const Vec3 axis = test::random_vector(random, 1.0).normalized();
+      const Mat3 turn = Eigen::AngleAxisd(random() % 7, axis).toRotationMatrix();
+      const Triangle t = {Vec3::Zero(), turn * Vec3(1, 0, 0), turn * Vec3(0.6, w, 0)};
+      const double u = share(random), v = (1.0 - u) * share(random), height = share(random);
+      const Vec3 above = point_at(t, {1.0 - u - v, u, v}) + height * turn.col(2);
+      const double distance = std::sqrt(nearest_on_triangle(above, t).squared_distance);
+      ASSERT_NEAR(distance, height, 1e-12) << "width " << w;
+    }
+  }
+}
+
+TEST(Triangle, NearestPointKnowsItsSides) {
+  const Triangle t = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  const auto sides = [&](const Vec3& x) {
+    const NearestPoint nearest = nearest_on_triangle(x, t);
+    return std::array{nearest.on_side(0), nearest.on_side(1), nearest.on_side(2)};
+  };
+  EXPECT_EQ(sides({0.2, 0.2, 1}), (std::array{false, false, false}));
+  EXPECT_EQ(sides({0.5, -1, 1}), (std::array{true, false, false}));
+  EXPECT_EQ(sides({1, 1, 0}), (std::array{false, true, false}));
+  EXPECT_EQ(sides({-1, 0.5, 0}), (std::array{false, false, true}));
+  EXPECT_EQ(sides({-1, -1, 0}), (std::array{true, false, true}));
+  EXPECT_EQ(sides({3, 0, 0}), (std::array{true, true, false}));
+  EXPECT_EQ(sides({0, 3, 0}), (std::array{false, true, true}));
+}
+
+// Through a place of known barycentric weights, from any direction.
+TEST(Triangle, LinesPassWhereTheirWeightsArePositive) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Triangle t = random_triangle(random);
+    Vec3 weights = test::random_vector(random, 1.0);
+    weights[2] = 1.0 - weights[0] - weights[1];
+    const Vec3 way = test::random_vector(random, 1.0), through = point_at(t, weights);
+    if (std::abs(way.dot(twice_area_vector(t))) < 1e-3 || std::abs(weights.minCoeff()) < 1e-6) {
+      continue;
+    }
+    EXPECT_EQ(line_passes(t, through - way, through + 0.5 * way), weights.minCoeff() > 0.0);
+    const Vec3 on_side = t[0] + 0.3 * (t[1] - t[0]);
+    EXPECT_TRUE(line_passes(t, on_side - way, on_side + way));
+  }
+}
+
 // Central differences of the weights of a moving place in the plane.
 TEST(Triangle, WeightGradientsAreThoseOfFiniteDifferences) {
   std::mt19937 random(2);

@@ -145,34 +145,16 @@ std::vector<double> bounds_of_error(const Lattice& lattice) {
   return bound;
 }
 
-// The largest difference of both paths over its bound; infinite where one is no number.
+// Of both paths, as a share of its bound.
 double worst_error(const Lattice& lattice) {
-  const auto exact = test::in_double(lattice).force, fast = by_edges(lattice).force;
-  const std::vector<double> bound = bounds_of_error(lattice);
-  double worst = 0.0;
-  for (std::size_t p = 0; p < bound.size(); ++p) {
-    const double error = (fast[p] - exact[p]).norm();
-    if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
-    if (error > 0.0) worst = std::max(worst, error / bound[p]);
-  }
-  return worst;
+  return test::worst_error(by_edges(lattice).force, test::in_double(lattice).force,
+                           bounds_of_error(lattice));
 }
 
-// The same relative to the sum of the magnitudes of forces at the point.
+// Relative to the sum of the magnitudes of forces at the point.
 double worst_relative_error(const Lattice& lattice) {
-  const auto exact = test::in_double(lattice).force, fast = by_edges(lattice).force;
-  std::vector<double> scale(lattice.motion.size(), 0.0);
-  for (const Spring& s : lattice.springs) {
-    const Vec3 d = lattice.motion[s.b].position - lattice.motion[s.a].position;
-    const double force = s.stiffness * std::abs(d.norm() - s.rest_length);
-    scale[s.a] += force;
-    scale[s.b] += force;
-  }
-  double worst = 0.0;
-  for (std::size_t p = 0; p < scale.size(); ++p) {
-    if (scale[p] > 0.0) worst = std::max(worst, (fast[p] - exact[p]).norm() / scale[p]);
-  }
-  return worst;
+  return test::worst_error(by_edges(lattice).force, test::in_double(lattice).force,
+                           test::force_scales(lattice));
 }
 
 TEST(EdgeKernel, ForcesAreThoseOfTheDoublePath) {

@@ -91,6 +91,28 @@ TEST(RigidBody, EffectiveMassIsTheAnswerToAnImpulse) {
   EXPECT_NEAR(change, 0.7 * body.inverse_effective_mass(at, normal), 1e-12);
 }
 
+// As in a game on a plane: along x and y, and about z.
+TEST(RigidBody, MovesAlongAndTurnsAboutFreeAxesAlone) {
+  RigidBody body = moving_body();
+  body.linear_factor = {1.0, 1.0, 0.0};
+  body.angular_factor = Vec3::UnitZ();
+  body.velocity.z() = 0.0;
+  body.angular_velocity = 3.0 * Vec3::UnitZ();
+  refresh_rotation(body);
+  const Vec3 at = body.position + Vec3(0.1, -0.2, 0.05);
+  const Vec3 normal = Vec3(1.0, 2.0, -2.0) / 3.0;
+  const double before = normal.dot(body.velocity_at(at));
+  body.apply_impulse(0.7 * normal, at);
+  EXPECT_NEAR(normal.dot(body.velocity_at(at)) - before,
+              0.7 * body.inverse_effective_mass(at, normal), 1e-12);
+  body.add_force({1.0, 2.0, 3.0}, at);
+  apply_forces(body, 0.01);
+  const double spin = body.angular_velocity.z();
+  for (int n = 0; n < 100; ++n) advance_pose(body, 0.01);
+  EXPECT_EQ(body.velocity.z(), 0.0);
+  EXPECT_EQ(body.angular_velocity, spin * Vec3::UnitZ());
+}
+
 TEST(RigidBody, ForceOverTimeIsAnImpulse) {
   RigidBody pushed = moving_body(), kicked = pushed;
   const Vec3 force(30.0, -20.0, 10.0), at = pushed.position + Vec3(0.0, 0.1, 0.2);

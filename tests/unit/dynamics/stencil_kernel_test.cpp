@@ -218,31 +218,9 @@ TEST(StencilKernel, NearlyCoincidentPointsAreNotDampedMoreThanTheyMove) {
 
 // ---------------------------------------------------------------------------------------------
 
-// Sum of the magnitudes of the forces at each point, N: what errors of sums are relative to.
-std::vector<double> force_scales(const Lattice& lattice) {
-  std::vector<double> scale(lattice.motion.size(), 0.0);
-  for (const Spring& s : lattice.springs) {
-    const Vec3 d = lattice.motion[s.b].position - lattice.motion[s.a].position;
-    const Vec3 w = lattice.motion[s.b].velocity - lattice.motion[s.a].velocity;
-    const double force = s.stiffness * std::abs(d.norm() - s.rest_length) + s.damping * w.norm();
-    scale[s.a] += force;
-    scale[s.b] += force;
-  }
-  return scale;
-}
-
-// The largest difference of both paths, relative to force_scales(); infinite where one is no
-// number.
 double worst_sum_error(const Lattice& lattice) {
-  const auto exact = test::in_double(lattice).force, fast = test::in_single(lattice).force;
-  const std::vector<double> scale = force_scales(lattice);
-  double worst = 0.0;
-  for (std::size_t p = 0; p < scale.size(); ++p) {
-    const double error = (fast[p] - exact[p]).norm();
-    if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
-    if (error > 0.0) worst = std::max(worst, error / scale[p]);
-  }
-  return worst;
+  return test::worst_error(test::in_single(lattice).force, test::in_double(lattice).force,
+                           test::force_scales(lattice));
 }
 
 // Points off their places by `share` of the spacing.

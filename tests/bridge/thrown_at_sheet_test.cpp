@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <ostream>
+#include <string>
+#include <utility>
+
+#include "core/modeller/sheet.h"
+#include "core/modeller/thin_material.h"
+#include "tests/bridge/measure.h"
+#include "tests/bridge/models.h"
+#include "tests/bridge/world.h"
+
+// Balls against a sheet with cells of 10 cm, of points and of faces, from both its sides.
+
+namespace limber::bullet::test {
+namespace {
+
+constexpr int kCells = 8;
+constexpr double kSide = 0.8;    // m
+constexpr double kSpeed = 10.0;  // m/s
+
+// 1 kg/m^2, 100 kN/m, horizontal at y = 0, pinned along its border.
+PhysicalModel pinned_sheet() {
+  constexpr double kThickness = 0.005;  // m
+  Material material;
+  material.density = 1.0 / kThickness;
+  material.youngs_modulus = 1e5 / kThickness;
+  material.strain_at_break = kUnbreakable;
+  const auto flat = [](double u, double v) -> Vec3 { return kSide * Vec3(u - 0.5, 0.0, 0.5 - v); };
+  PhysicalModel model =
+      with_sheet_material(sheet(flat, {kCells, kCells, SheetCells::kSquares}, "sheet"), "sheet",
+                          material, {.thickness = kThickness});
+  for (PointId p : ids_of(model.points)) {
+    const double out = model.geometry.points[p].cwiseAbs().maxCoeff();
+    model.points[p].pinned = out > 0.5 * kSide - 1e-9;
+  }
+  return model;
+}
+
+// m, of the sheet at x and z: of the face that is there, none of which stands upright.
+double height_at(const PhysicalModel& sheet, double x, double z) {
+  for (const Face& face : sheet.geometry.faces) {
+    Mat3 corners;  // (x, 1, z) of each, as columns
+    Vec3 heights;
+    for (int i = 0; i < 3; ++i) {
+      corners.col(i) = sheet.geometry.points[face.corners[i]];
+      heights[i] = std::exchange(corners(1, i), 1.0);
+    }
+    const Vec3 weights = corners.inverse() * Vec3(x, 1.0, z);
+    if (weights.minCoeff() >= -1e-9) return weights.dot(heights);
+  }
+  ADD_FAILURE() << "beside the sheet";
+  return 0.0;
+}
+
+struct Throw {
+  std::string name;
+  double radius;  // m
+  double side;    // 1: onto its front, from above; -1: onto its back
+};
+
+// For gtest's messages.
+void PrintTo(const Throw& thrown, std::ostream* out) { *out << thrown.name; }
+
+class ThrownAtSheet : public testing::TestWithParam<Throw> {};
+
+// Half a spacing deep at the most, as in tests/contact_scenes, and back again.
+TEST_P(ThrownAtSheet, DoesNotPassWhatIsWhole) {
+  const auto& [name, radius, side] = GetParam();
+  World world(0.0);
+  const Vec3 start(0.03, side * (radius + 0.05), 0.02);
+  btRigidBody& ball = world.add(std::make_unique<btSphereShape>(btScalar(radius)), 1.0, start);
+  ball.setLinearVelocity(to_bullet(Vec3(0.0, -side * kSpeed, 0.0)));
+  CoSimulation simulation(*world, settings_for(Representation::kAlwaysFlexible));
+  simulation.add(pinned_sheet());
+  double lowest = 0.0, deepest = 0.0;
+  for (int tick = 0; tick < 15; ++tick) {
+    world.step(kTick);
+    ASSERT_FALSE(simulation.failure());
+    const Vec3 centre = from_bullet(ball.getWorldTransform().getOrigin());
+    const double sheet = height_at(simulation.model(0), centre.x(), centre.z());
+    lowest = std::min(lowest, side * sheet);
+    deepest = std::max(deepest, radius - side * (centre.y() - sheet));
+  }
+  EXPECT_EQ(simulation.counters().broken_edges, 0u);
+  EXPECT_LT(lowest, -0.03) << "nothing was hit";
+  EXPECT_LT(deepest, 0.5 * kSide / kCells);
+  EXPECT_GT(side * ball.getLinearVelocity().y(), 0.0) << "is not on its way back";
+}
+
+INSTANTIATE_TEST_SUITE_P(Balls, ThrownAtSheet,
+                         testing::Values(Throw{"LargeOnTheFront", 0.1, 1.0},
+                                         Throw{"LargeOnTheBack", 0.1, -1.0},
+                                         Throw{"SmallOnTheFront", 0.03, 1.0},
+                                         Throw{"SmallOnTheBack", 0.03, -1.0}),
+                         [](const auto& thrown) { return thrown.param.name; });
+
+}  // namespace
+}  // namespace limber::bullet::test
