@@ -49,9 +49,10 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const Lattice& la
   substep_ = 0;
   for (const NearBody& body : near) {
     const int shadow = shadows_.shadow_of(*body.object);
-    const Vec3 way = Vec3::Constant(largest_speed(shadows_[shadow], *body.object) * tick);
-    obstacles_.emplace_back(*body.object, shadow, shadows_[shadow], lattice, body.low - way,
-                            body.high + way, shapes_);
+    const double way = largest_speed(shadows_[shadow], *body.object) * tick;
+    const Vec3 around = Vec3::Constant(way);
+    obstacles_.emplace_back(*body.object, shadow, shadows_[shadow], lattice, body.low - around,
+                            body.high + around, way, shapes_);
     const auto same = [&](const Obstacle& then) { return &then.object() == body.object; };
     const auto then = std::find_if(last_tick.begin(), last_tick.end(), same);
     if (then != last_tick.end()) obstacles_.back().remember(std::move(*then));

@@ -27,7 +27,8 @@ struct CarriedPiece {
 // Contract, per tick: begin_tick() copies the bodies near the lattice, and what supports them, into
 // shadows; the substeps exchange equal and opposite forces between points and shadows;
 // write_velocities() gives Bullet the result before it solves; correct_poses() after it moved.
-// Bullet owns every mass outside of the lattice, this owns nothing beyond the tick.
+// Bullet owns every mass outside of the lattice. What this keeps beyond the tick is what contacts
+// remember: sides, books and friction.
 class ContactSolver : public SubstepCoupling {
  public:
   // `near`: bodies that the lattice may reach in this tick, in a fixed order. `boundary` has to
@@ -35,6 +36,9 @@ class ContactSolver : public SubstepCoupling {
   void begin_tick(btDiscreteDynamicsWorld& world, const Lattice& lattice,
                   const BoundaryTracker& boundary, std::span<const NearBody> near,
                   std::span<const CarriedPiece> carried, double tick);
+
+  // In a tick without lattices: what contacts remembered is no longer true.
+  void forget() { obstacles_.clear(); }
 
   void add_forces(Lattice& lattice, double dt) override;
   void advance(Lattice& lattice, double dt) override;

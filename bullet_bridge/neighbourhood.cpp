@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/shadow_body.h"

@@ -1,6 +1,7 @@
 #include "bullet_bridge/obstacle.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,10 @@ constexpr double kThinShare = 0.1;
 // What all contacts of a body may take together of the step's limit on the body's side.
 constexpr double kBodyStepShare = 0.05;
 
+// A body that is farther from where it was than twice the way of its own speed, and by this, has
+// been put there: m, what Bullet's own mending of overlaps moves it in a tick at most.
+constexpr double kPutMargin = 0.01;
+
 // The deepest place of a face is looked for to this share of the face's size: the force then is
 // wrong by as much as a tenth of a millimetre of depth on a face of 10 cm.
 constexpr double kDepthTolerance = 1e-3;
@@ -55,6 +60,12 @@ double eased(double depth, double& offset, double dt) {
 double thickness(const ContactPart& part) {  // m
   if (part.kind == ContactPart::Kind::kTriangles) return std::numeric_limits<double>::infinity();
   return (part.own_high - part.own_low).minCoeff();
+}
+
+// m: the face does not touch before a corner has moved so far. Bullet's general query is no bound.
+double clearance(const ContactPart& part, const FacePenetration& deepest, const PointTrack& track) {
+  if (track.inside || part.kind == ContactPart::Kind::kConvex) return 0.0;
+  return std::max(0.0, -deepest.bound - 2.0 * part.tolerance);
 }
 
 bool may_touch(const ContactPart& part, const Vec3& local, double reach) {
@@ -89,6 +100,16 @@ const P* with_part(std::span<const P> pairs, std::int32_t part) {
   const auto found =
       std::find_if(pairs.begin(), pairs.end(), [&](const P& pair) { return pair.part == part; });
   return found == pairs.end() ? nullptr : &*found;
+}
+
+template <class P>
+bool is_held(const P* pair) {
+  return pair && pair->track.inside && pair->holds;
+}
+
+int revision_of(const btCollisionShape& shape) {
+  if (!shape.isCompound()) return 0;
+  return static_cast<const btCompoundShape&>(shape).getUpdateRevision();
 }
 
 // Velocity of the lattice over the body at a place, m/s.
@@ -139,8 +160,16 @@ void FacePlace::add_force(Lattice& lattice, const Vec3& force) const {
 }
 
 Obstacle::Obstacle(const btCollisionObject& object, int shadow, const ShadowBody& body,
-                   const Lattice& lattice, const Vec3& low, const Vec3& high, ShapeCache& cache)
-    : object_(&object), shadow_(shadow), at_rest_(!body.movable() && !body.moves()) {
+                   const Lattice& lattice, const Vec3& low, const Vec3& high, double way,
+                   ShapeCache& cache)
+    : object_(&object),
+      shadow_(shadow),
+      shape_(object.getCollisionShape()),
+      shape_revision_(revision_of(*object.getCollisionShape())),
+      position_(body.position),
+      rotation_(body.rotation),
+      way_(way),
+      at_rest_(!body.movable() && !body.moves()) {
   const Mat3 to_body = body.rotation.transpose();
   const Vec3 middle = to_body * (0.5 * (low + high) - body.position);
   const Vec3 half = to_body.cwiseAbs() * (0.5 * (high - low));
@@ -152,9 +181,35 @@ Obstacle::Obstacle(const btCollisionObject& object, int shadow, const ShadowBody
 
 void Obstacle::remember(Obstacle&& last_tick) {
   sharers_ = last_tick.sharers_;
-  if (at_rest_ != last_tick.at_rest_) return;  // its tracks are in another frame
+  if (shape_ != last_tick.shape_ || shape_revision_ != last_tick.shape_revision_) return;
+  const bool both_at_rest = at_rest_ && last_tick.at_rest_;
+  const bool turned = rotation_ != last_tick.rotation_;
+  const double moved = (position_ - last_tick.position_).norm();
+  if (moved > 2.0 * (way_ + last_tick.way_) + kPutMargin || (both_at_rest && turned)) return;
   points_ = std::move(last_tick.points_);
   faces_ = std::move(last_tick.faces_);
+  if (at_rest_ == last_tick.at_rest_) return;
+  for (PointPair& pair : points_) change_frame(pair.track);
+  for (FacePair& pair : faces_) {
+    change_frame(pair.track);
+    for (int i = 0; i < 3; ++i) {
+      pair.last.col(i) = at_rest_ ? Vec3(position_ + rotation_ * pair.last.col(i))
+                                  : Vec3(rotation_.transpose() * (pair.last.col(i) - position_));
+    }
+  }
+}
+
+// A body that stops is met in the world from now on, one that starts to move in its own frame.
+void Obstacle::change_frame(PointTrack& track) const {
+  if (at_rest_) {
+    track.last = position_ + rotation_ * track.last;
+    track.normal = rotation_ * track.normal;
+    track.level += track.normal.dot(position_);
+  } else {
+    track.level -= track.normal.dot(position_);
+    track.last = rotation_.transpose() * (track.last - position_);
+    track.normal = rotation_.transpose() * track.normal;
+  }
 }
 
 Vec3 Obstacle::to_frame(const ShadowBody& body, const Vec3& point) const {
@@ -209,8 +264,7 @@ void Obstacle::list_points(const Lattice& lattice, const ShadowBody& body,
     const std::span<const PointPair> known_here = known.of(p);
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       const PointPair* then = with_part(known_here, parts_[k].id);
-      const bool held = then && then->track.inside;
-      if (!held && !may_touch(parts_[k], local, reached)) continue;
+      if (!is_held(then) && !may_touch(parts_[k], local, reached)) continue;
       points_.push_back(known_or_new(then, p, k, local));
     }
   }
@@ -233,8 +287,7 @@ void Obstacle::list_faces(const Lattice& lattice, const LatticeSurface& surface,
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       if (!fits_between_points(parts_[k])) continue;
       const FacePair* then = with_part(known_here, parts_[k].id);
-      const bool held = then && then->track.inside;
-      if (!held && !may_touch(parts_[k], local, reached)) continue;
+      if (!is_held(then) && !may_touch(parts_[k], local, reached)) continue;
       faces_.push_back(known_or_new(then, face.face, k, local));
       FacePair& pair = faces_.back();
       if (!then) pair.last = corners_in_frame(lattice, body, face.corners);
@@ -261,7 +314,7 @@ void Obstacle::press_point(Lattice& lattice, const LatticeSurface& surface, Shad
   if (stays_outside(part, now, pair.track)) return;
   const Penetration contact = follow(part, now, pair.track);
   if (contact.depth <= 0.0) return pair.let_go();
-  const bool new_here = pair.books.stored == 0.0 && !surface.is_of_sheet(pair.of);
+  const bool new_here = !pair.holds && !surface.is_of_sheet(pair.of);
   if (new_here &&
       is_behind(contact.normal, direction_to_frame(body, surface.outwards_at(lattice, pair.of)))) {
     return;
@@ -280,10 +333,10 @@ void Obstacle::press_face(Lattice& lattice, ShadowBody& body, FacePair& pair, do
   const FacePenetration deepest = deepest_place(part, corners, kDepthTolerance * size);
   pair.track.last = before * deepest.weights;  // the place may have moved on the face, this has not
   Penetration contact = follow(part, corners * deepest.weights, pair.track);
-  pair.clear = pair.track.inside ? 0.0 : std::max(0.0, -deepest.bound);
+  pair.clear = clearance(part, deepest, pair.track);
   if (contact.depth <= 0.0) return pair.let_go();
   const Vec3 outwards = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
-  const bool new_here = pair.books.stored == 0.0 && !pair.sheet;
+  const bool new_here = !pair.holds && !pair.sheet;
   if (new_here && is_behind(contact.normal, outwards)) return;
   contact.depth -= std::max(0.0, deepest.corners);
   push(lattice, body, pair, {pair.corners, deepest.weights}, contact, dt);
@@ -317,7 +370,9 @@ void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const
                     const Penetration& contact, double dt) {
   PassiveContact& books = pair.books;
   if (books.impulse > 0.0) {
-    books.settle(-slip_at(lattice, body, pair.pressed).dot(pair.normal));
+    const Vec3 now = slip_at(lattice, body, pair.pressed);
+    books.settle(-now.dot(pair.normal));
+    pair.friction.settle(now - now.dot(pair.normal) * pair.normal, dt);
   }
   const double depth = eased(contact.depth, pair.offset, dt);
   if (depth <= 0.0 && pair.offset == 0.0) return;
@@ -341,6 +396,7 @@ void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const
   books.give(press * dt, -separation);
   pair.pressed = place;
   pair.normal = normal;
+  pair.holds = true;
   ++pushed_;
 }
 
@@ -349,6 +405,7 @@ void Obstacle::Pair<Place>::let_go() {
   offset = 0.0;
   books = {};
   friction = {};
+  holds = false;
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -48,14 +48,17 @@ struct ListingReach {
 // tick; nothing that came in on one side leaves on another.
 class Obstacle {
  public:
-  // `low`, `high`: the box in the world, m, outside of which nothing will meet it in this tick.
+  // `low`, `high`: the box in the world, m, outside of which nothing will meet it in this tick;
+  // `way`: m that it is about to move in it.
   Obstacle(const btCollisionObject& object, int shadow, const ShadowBody& body,
-           const Lattice& lattice, const Vec3& low, const Vec3& high, ShapeCache& cache);
+           const Lattice& lattice, const Vec3& low, const Vec3& high, double way,
+           ShapeCache& cache);
 
   const btCollisionObject& object() const { return *object_; }
   int shadow() const { return shadow_; }
 
-  // Takes over what pairs of the last tick remember of the same body.
+  // Takes over what pairs of the last tick remember of the same body, unless it has been put
+  // elsewhere or has another shape.
   void remember(Obstacle&& last_tick);
 
   // Lists the pairs that may touch until the next listing.
@@ -78,6 +81,7 @@ class Obstacle {
     Vec3 normal;    // along which, world
     PassiveContact books;
     FrictionSpring friction;
+    bool holds = false;  // it has pressed since it came in
 
     void let_go();
   };
@@ -93,6 +97,7 @@ class Obstacle {
   Mat3 corners_in_frame(const Lattice& lattice, const ShadowBody& body,
                         const std::array<std::int32_t, 3>& corners) const;
   Vec3 direction_to_frame(const ShadowBody& body, const Vec3& direction) const;
+  void change_frame(PointTrack& track) const;
   template <class P>
   P known_or_new(const P* known, std::int32_t of, std::size_t listed, const Vec3& local) const;
   void list_points(const Lattice& lattice, const ShadowBody& body, const ListingReach& reach);
@@ -112,6 +117,11 @@ class Obstacle {
 
   const btCollisionObject* object_;
   int shadow_;
+  const void* shape_;
+  int shape_revision_;  // of a compound's children
+  Vec3 position_;       // of the body at the tick's start, m
+  Mat3 rotation_;
+  double way_;                        // m, that it is about to move in this tick
   bool at_rest_;                      // immovable and not moving: parts are in world coordinates
   std::vector<ContactPart> parts_;    // otherwise in the body's frame
   std::vector<PenaltyContact> laws_;  // against each object of the lattice

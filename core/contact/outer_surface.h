@@ -28,7 +28,7 @@ class OuterSurface {
   // Has it two sides that can be touched, or is there a cell behind it?
   bool is_sheet(std::int32_t face) const { return is_sheet_[face]; }
 
-  // Piece, or carrying body, of a point, 0 .. groups() - 1.
+  // Piece, or carrying body, of each point; of one point, 0 .. groups() - 1.
   const Components& pieces() const { return pieces_; }
   std::int32_t group(std::int32_t point) const { return pieces_.label[point]; }
   std::int32_t group_of_face(std::int32_t face) const { return group(corners_[face][0]); }

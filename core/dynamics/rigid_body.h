@@ -16,7 +16,8 @@ struct RigidBody {
   double inverse_mass = 0.0;                  // 1/kg, 0: immovable, keeps its velocities
   Mat3 inverse_inertia_local = Mat3::Zero();  // 1/(kg m^2), own axes: diagonal; 0: does not turn
 
-  // Of what an impulse moves, along and about the world's axes: 0 for an axis that is locked.
+  // Of what an impulse moves, along and about the world's axes: 0 for an axis that is locked. As in
+  // Bullet, they multiply the inverse inertia; momentum and energy are those of a free body.
   Vec3 linear_factor = Vec3::Ones(), angular_factor = Vec3::Ones();
 
   Vec3 position = Vec3::Zero();                                     // of the centre of mass, m

@@ -39,6 +39,12 @@ void expect_deepest(const btCollisionShape& shape) {
     const double sampled = sampled_depth(part, corners, 40);
     ASSERT_GE(found.weights.minCoeff(), -1e-12);
     ASSERT_NEAR(found.weights.sum(), 1.0, 1e-12);
+    ASSERT_GE(found.bound, sampled - 1e-12);
+    double of_corners = -1e300;
+    for (int k = 0; k < 3; ++k) {
+      of_corners = std::max(of_corners, penetration(part, corners.col(k)).depth);
+    }
+    ASSERT_EQ(found.corners, of_corners);
     if (sampled <= 0.0) continue;
     ++inside;
     ASSERT_GE(found.depth, sampled - 20.0 * kTolerance);  // round parts end at the most cuts

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "tests/bridge/measure.h"
 #include "tests/bridge/models.h"

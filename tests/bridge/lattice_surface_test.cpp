@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "core/modeller/sheet.h"
 #include "core/modeller/thin_material.h"

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <memory>
 #include <ostream>
 #include <string>
 #include <utility>
