@@ -72,8 +72,12 @@ TEST(JellyAndBrick, BrickTurnsFlexibleInTheTickOfItsTouch) {
   EXPECT_EQ(whole_run().missed, 0u);
 }
 
+// The jelly may have to sag into its rest once more: 3 s, the scene's own time, are enough in
+// float64, 5 s in float32.
 TEST(JellyAndBrick, ComeToRest) {
-  for (const BodySummary& body : whole_run().summaries) {
+  Scene scene = build_scene("jelly_and_brick");
+  scene.seconds = 6.0;
+  for (const BodySummary& body : run(scene, {}).summaries) {
     EXPECT_LT(body.velocity.norm(), 0.02) << body.name;
   }
 }
