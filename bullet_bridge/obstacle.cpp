@@ -20,7 +20,8 @@ namespace {
 // wall of 5 mm in 0.1 s. Without it pieces that thaw again and again sink into the floor.
 constexpr double kEaseSpeed = 0.05;
 
-// A contact is soft, as the point-point penalty, to this share of the point's contact radius, and
+// A contact is soft, as the point-point penalty, to this share of the point's contact radius (times
+// sqrt(S) for a softened object), and
 // from there on as stiff as this share of the step's limit, 4 / dt^2, allows. The automatic step
 // leaves 0.15 of it beyond springs and point-point contact; contact with faces of lattices takes
 // 0.1, friction 0.05 of what is left when all meet at one point.
@@ -30,6 +31,7 @@ constexpr double kDeepStepShare = 0.03;
 // And to this share of the part's own thickness: from half of it on a rod or a plate would be left
 // on the far side.
 constexpr double kThinShare = 0.1;
+constexpr double kThinMost = 0.4;  // softened or not
 
 // What all contacts of a body may take together of the step's limit on the body's side.
 constexpr double kBodyStepShare = 0.05;
@@ -174,7 +176,12 @@ Obstacle::Obstacle(const btCollisionObject& object, int shadow, const ShadowBody
   const Vec3 middle = to_body * (0.5 * (low + high) - body.position);
   const Vec3 half = to_body.cwiseAbs() * (0.5 * (high - low));
   parts_ = contact_parts(*object.getCollisionShape(), middle - half, middle + half, cache);
-  for (const LatticeObject& other : lattice.objects) laws_.push_back(law_between(other, object));
+  for (const LatticeObject& other : lattice.objects) {
+    laws_.push_back(law_between(other, object));
+    // With a modulus S times as soft all is sqrt(S) times as deep at the same speeds: contact too,
+    // or softening would change the speed that breaks a thing.
+    dents_.push_back(std::sqrt(std::max(1.0, other.authored.object.softening)));
+  }
   if (!at_rest_) return;
   for (ContactPart& part : parts_) part = placed(part, body.position, body.rotation);
 }
@@ -345,8 +352,9 @@ void Obstacle::press_face(Lattice& lattice, ShadowBody& body, FacePair& pair, do
 PenaltyContact Obstacle::law_at(const Lattice& lattice, std::int32_t point, const ContactPart& part,
                                 double dt) const {
   PenaltyContact law = laws_[lattice.point_object[point]];
-  law.soft_depth =
-      std::min(kSoftShare * lattice.contact_radius[point], kThinShare * thickness(part));
+  const double dents = dents_[lattice.point_object[point]];
+  law.soft_depth = std::min(kSoftShare * dents * lattice.contact_radius[point],
+                            std::min(kThinShare * dents, kThinMost) * thickness(part));
   law.deep_frequency = std::max(law.frequency, 2.0 * std::sqrt(kDeepStepShare) / dt);
   return law;
 }

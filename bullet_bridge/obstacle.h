@@ -125,6 +125,7 @@ class Obstacle {
   bool at_rest_;                      // immovable and not moving: parts are in world coordinates
   std::vector<ContactPart> parts_;    // otherwise in the body's frame
   std::vector<PenaltyContact> laws_;  // against each object of the lattice
+  std::vector<double> dents_;         // how much deeper it dents than at its real modulus
   std::vector<PointPair> points_;     // ascending by (of, part)
   std::vector<FacePair> faces_;       // ascending by (of, part)
   int sharers_ = 1;                   // contacts that pushed the body in the last substep
