@@ -81,43 +81,36 @@ double critical_speed(const Fall& fall, double softening) {
   return std::sqrt(survives * fails);
 }
 
-// Contact is soft to a depth that does not go by S, while dents are sqrt(S) times as deep: softened
-// things meet more of its stiff part (docs/limits.md). What is asked is within 3 %; until then
-// these tests bound how far off it is, and say so.
-constexpr const char* kContactGoesByS = "known: the depth to which contact is soft ignores S: ";
-
 // A flat thing meets the kerb in the same place and with the same points at any S. (From 5 m/s at
 // S = 2000, 0.04 of the wave speed, the one row of points that touches is through the kerb before
 // the tile breaks: a limit of contact and no matter of strength.)
+//
+// Contact is soft to a depth that goes by sqrt(S), as dents do, but on thin bodies to no more than
+// 0.4 of them: on this kerb of 1 cm the tile with S = 400 meets the stiff part. Asked is within 3
+// %.
 TEST(RealModulus, BreaksATileAtTheSpeedOfTheSoftened) {
   const Fall fall{tile, true, 4.0};
-  const double real = critical_speed(fall, 1.0);
+  const double real = critical_speed(fall, 1.0);  // 2.88 m/s
+  EXPECT_NEAR(critical_speed(fall, 2000.0) / real, 1.0, 0.03);
   const double ratio_400 = critical_speed(fall, 400.0) / real;
-  const double ratio_2000 = critical_speed(fall, 2000.0) / real;
-  EXPECT_NEAR(ratio_400, 1.0, 0.2);
-  EXPECT_NEAR(ratio_2000, 1.0, 0.2);
-  if (std::abs(ratio_400 - 1.0) > 0.03 || std::abs(ratio_2000 - 1.0) > 0.03) {
-    GTEST_SKIP() << kContactGoesByS << real << " m/s, x " << ratio_400 << " at S = 400, x "
-                 << ratio_2000 << " at 2000";
+  EXPECT_NEAR(ratio_400, 1.0, 0.1);
+  if (std::abs(ratio_400 - 1.0) > 0.03) {
+    GTEST_SKIP() << "known: x " << ratio_400 << " at S = 400 on a thin kerb";
   }
 }
 
 // A round thing dents sqrt(S) times as deep and rests on more points: what the first of them bore
-// alone is spread, and with one and the same contact at any S the softened one bears up to 1.35
-// times the speed.
-TEST(RealModulus, BreaksABowlNearTheSpeedOfTheSoftened) {
+// alone is spread, and the softened one bears more. Not a virtue, but known: who changes it should
+// notice.
+TEST(RealModulus, BreaksABowlSoonerThanTheSoftened) {
   const Fall fall{bowl, false, 8.0};
   const double real = critical_speed(fall, 1.0);
-  const double ratio_25 = critical_speed(fall, 25.0) / real;
-  const double ratio_400 = critical_speed(fall, 400.0) / real;
-  for (double ratio : {ratio_25, ratio_400}) {
-    EXPECT_GT(ratio, 0.7);
-    EXPECT_LT(ratio, 1.5);
-  }
-  if (ratio_25 < 1.0 || ratio_400 < ratio_25) {
-    GTEST_SKIP() << kContactGoesByS << real << " m/s, x " << ratio_25 << " at S = 25, x "
-                 << ratio_400 << " at 400";
-  }
+  const double softened = critical_speed(fall, 25.0);
+  EXPECT_GT(softened / real, 1.0);
+  EXPECT_LT(softened / real, 1.15);
+  const double much_softened = critical_speed(fall, 400.0);
+  EXPECT_GT(much_softened, softened);
+  EXPECT_LT(much_softened / real, 1.5);
 }
 
 }  // namespace
