@@ -51,7 +51,7 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const Lattice& la
     const int shadow = shadows_.shadow_of(*body.object);
     const double way = largest_speed(shadows_[shadow], *body.object) * tick;
     const Vec3 around = Vec3::Constant(way);
-    obstacles_.emplace_back(*body.object, shadow, shadows_[shadow], lattice, body.low - around,
+    obstacles_.emplace_back(*body.object, shadow, shadows_[shadow], body.low - around,
                             body.high + around, way, shapes_);
     const auto same = [&](const Obstacle& then) { return &then.object() == body.object; };
     const auto then = std::find_if(last_tick.begin(), last_tick.end(), same);

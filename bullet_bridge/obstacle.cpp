@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bullet_bridge/shapes/face_penetration.h"
+#include "core/contact/triangle.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -162,8 +163,7 @@ void FacePlace::add_force(Lattice& lattice, const Vec3& force) const {
 }
 
 Obstacle::Obstacle(const btCollisionObject& object, int shadow, const ShadowBody& body,
-                   const Lattice& lattice, const Vec3& low, const Vec3& high, double way,
-                   ShapeCache& cache)
+                   const Vec3& low, const Vec3& high, double way, ShapeCache& cache)
     : object_(&object),
       shadow_(shadow),
       shape_(object.getCollisionShape()),
@@ -176,12 +176,6 @@ Obstacle::Obstacle(const btCollisionObject& object, int shadow, const ShadowBody
   const Vec3 middle = to_body * (0.5 * (low + high) - body.position);
   const Vec3 half = to_body.cwiseAbs() * (0.5 * (high - low));
   parts_ = contact_parts(*object.getCollisionShape(), middle - half, middle + half, cache);
-  for (const LatticeObject& other : lattice.objects) {
-    laws_.push_back(law_between(other, object));
-    // With a modulus S times as soft all is sqrt(S) times as deep at the same speeds: contact too,
-    // or softening would change the speed that breaks a thing.
-    dents_.push_back(std::sqrt(std::max(1.0, other.authored.object.softening)));
-  }
   if (!at_rest_) return;
   for (ContactPart& part : parts_) part = placed(part, body.position, body.rotation);
 }
@@ -342,7 +336,7 @@ void Obstacle::press_face(Lattice& lattice, ShadowBody& body, FacePair& pair, do
   Penetration contact = follow(part, corners * deepest.weights, pair.track);
   pair.clear = clearance(part, deepest, pair.track);
   if (contact.depth <= 0.0) return pair.let_go();
-  const Vec3 outwards = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
+  const Vec3 outwards = twice_area_vector({corners.col(0), corners.col(1), corners.col(2)});
   const bool new_here = !pair.holds && !pair.sheet;
   if (new_here && is_behind(contact.normal, outwards)) return;
   contact.depth -= std::max(0.0, deepest.corners);
@@ -351,8 +345,11 @@ void Obstacle::press_face(Lattice& lattice, ShadowBody& body, FacePair& pair, do
 
 PenaltyContact Obstacle::law_at(const Lattice& lattice, std::int32_t point, const ContactPart& part,
                                 double dt) const {
-  PenaltyContact law = laws_[lattice.point_object[point]];
-  const double dents = dents_[lattice.point_object[point]];
+  const LatticeObject& object = lattice.objects[lattice.point_object[point]];
+  PenaltyContact law = law_between(object, *object_);
+  // With a modulus S times as soft all is sqrt(S) times as deep at the same speeds: contact too, or
+  // softening would change the speed that breaks a thing.
+  const double dents = std::sqrt(std::max(1.0, object.authored.object.softening));
   law.soft_depth = std::min(kSoftShare * dents * lattice.contact_radius[point],
                             std::min(kThinShare * dents, kThinMost) * thickness(part));
   law.deep_frequency = std::max(law.frequency, 2.0 * std::sqrt(kDeepStepShare) / dt);

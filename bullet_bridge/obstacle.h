@@ -50,9 +50,8 @@ class Obstacle {
  public:
   // `low`, `high`: the box in the world, m, outside of which nothing will meet it in this tick;
   // `way`: m that it is about to move in it.
-  Obstacle(const btCollisionObject& object, int shadow, const ShadowBody& body,
-           const Lattice& lattice, const Vec3& low, const Vec3& high, double way,
-           ShapeCache& cache);
+  Obstacle(const btCollisionObject& object, int shadow, const ShadowBody& body, const Vec3& low,
+           const Vec3& high, double way, ShapeCache& cache);
 
   const btCollisionObject& object() const { return *object_; }
   int shadow() const { return shadow_; }
@@ -121,15 +120,13 @@ class Obstacle {
   int shape_revision_;  // of a compound's children
   Vec3 position_;       // of the body at the tick's start, m
   Mat3 rotation_;
-  double way_;                        // m, that it is about to move in this tick
-  bool at_rest_;                      // immovable and not moving: parts are in world coordinates
-  std::vector<ContactPart> parts_;    // otherwise in the body's frame
-  std::vector<PenaltyContact> laws_;  // against each object of the lattice
-  std::vector<double> dents_;         // how much deeper it dents than at its real modulus
-  std::vector<PointPair> points_;     // ascending by (of, part)
-  std::vector<FacePair> faces_;       // ascending by (of, part)
-  int sharers_ = 1;                   // contacts that pushed the body in the last substep
-  int pushed_ = 0;                    // in this one
+  double way_;                      // m, that it is about to move in this tick
+  bool at_rest_;                    // immovable and not moving: parts are in world coordinates
+  std::vector<ContactPart> parts_;  // otherwise in the body's frame
+  std::vector<PointPair> points_;   // ascending by (of, part)
+  std::vector<FacePair> faces_;     // ascending by (of, part)
+  int sharers_ = 1;                 // contacts that pushed the body in the last substep
+  int pushed_ = 0;                  // in this one
 };
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -21,8 +21,8 @@ namespace {
 // Lanczos's three-term recurrence: A = Q T Q^T with T tridiagonal, one row of it a step.
 class Lanczos {
  public:
-  explicit Lanczos(const SparseMatrix& lower)
-      : lower_(lower), now_(random_block(lower.rows(), 1).normalized()) {}
+  Lanczos(const SparseMatrix& lower, double magnitude)
+      : lower_(lower), magnitude_(magnitude), now_(random_block(lower.rows(), 1).normalized()) {}
 
   void step() {
     Eigen::VectorXd next = lower_.selfadjointView<Eigen::Lower>() * now_;
@@ -37,19 +37,25 @@ class Lanczos {
   struct Estimate {
     double value, error;  // there is an eigenvalue within `error` of `value`
   };
+  // T / magnitude + 2 has eigenvalues from 1 to 3. Those of T may be zero several times over, and
+  // there Eigen's QR steps may go on for ever: they take an entry beside the diagonal for zero by
+  // the size of the diagonal next to it.
   Estimate largest() const {
     const auto n = static_cast<Eigen::Index>(diagonal_.size());
+    const Eigen::VectorXd diagonal = Eigen::VectorXd::Map(diagonal_.data(), n) / magnitude_;
+    const Eigen::VectorXd side = Eigen::VectorXd::Map(side_.data(), n - 1) / magnitude_;
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-    solver.computeFromTridiagonal(Eigen::VectorXd::Map(diagonal_.data(), n),
-                                  Eigen::VectorXd::Map(side_.data(), n - 1));
+    solver.computeFromTridiagonal((diagonal.array() + 2.0).matrix(), side);
+    if (solver.info() != Eigen::Success) fail_to_converge("the highest frequency");
     const double last = solver.eigenvectors()(n - 1, n - 1);
-    return {solver.eigenvalues()[n - 1], side_.back() * std::abs(last)};
+    return {(solver.eigenvalues()[n - 1] - 2.0) * magnitude_, side_.back() * std::abs(last)};
   }
   std::size_t steps() const { return diagonal_.size(); }
-  bool exhausted(double magnitude) const { return side_.back() <= 1e-15 * magnitude; }
+  bool exhausted() const { return side_.back() <= 1e-15 * magnitude_; }
 
  private:
   const SparseMatrix& lower_;
+  double magnitude_;  // no eigenvalue has a larger one
   Eigen::VectorXd before_, now_;
   std::vector<double> diagonal_, side_;
 };
@@ -78,11 +84,11 @@ double largest_eigenvalue(const SparseMatrix& lower, double error) {
   constexpr std::size_t kMostSteps = 3000;
   const double magnitude = magnitude_bound(lower);
   if (magnitude == 0.0) return 0.0;
-  Lanczos lanczos(lower);
+  Lanczos lanczos(lower, magnitude);
   for (std::size_t check = 8; lanczos.steps() < kMostSteps; check += check / 2) {
     while (lanczos.steps() < check) {
       lanczos.step();
-      if (lanczos.exhausted(magnitude)) return lanczos.largest().value;
+      if (lanczos.exhausted()) return lanczos.largest().value;
     }
     const Lanczos::Estimate largest = lanczos.largest();
     if (largest.error <= error * magnitude) return largest.value;

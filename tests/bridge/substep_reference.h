@@ -25,7 +25,7 @@ class SubstepReference : public SubstepCoupling {
     boundary_.reset(lattice_.breaking);
     surface_ = LatticeSurface(lattice_, boundary_);
     for (const auto& body : world_.bodies()) {
-      obstacles_.emplace_back(*body, 0, make_shadow(*body), lattice_, Vec3::Constant(-100.0),
+      obstacles_.emplace_back(*body, 0, make_shadow(*body), Vec3::Constant(-100.0),
                               Vec3::Constant(100.0), 0.0, shapes_);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -89,6 +90,28 @@ TEST(FrictionSpring, GivesBackNoMoreThanItStored) {
     ASSERT_GE(taken, stored) << "substep " << n;
   }
   EXPECT_GT(given_back, 0.0);  // it is a spring, not only a brake
+}
+
+// Stretched while it is pressed little and let go while it is pressed hard, over and over: what a
+// spring without books would pump energy by.
+TEST(FrictionSpring, CannotBePumpedByTheNormalForce) {
+  constexpr int kPulls = 50;
+  const PenaltyContact law{.frequency = 0.13 / kStep, .friction = kLaw.friction};
+  const double k = law.frequency * law.frequency * kMass;
+  const double speed = 0.5 * law.friction * kNormalForce / k / (kPulls * kStep);
+  FrictionSpring spring;
+  spring.pull(law, kNormalForce, kMass, Vec3::UnitY(), Vec3::Zero(), kStep);
+  double given = 0.0, most_given = 0.0;  // J, by the contact
+  for (int cycle = 0; cycle < 1000; ++cycle) {
+    for (int n = 0; n < 2 * kPulls; ++n) {
+      const bool stretching = n < kPulls;
+      const Vec3 slip = (stretching ? speed : -speed) * Vec3::UnitX();
+      const double press = stretching ? 0.01 * kNormalForce : kNormalForce;
+      given += spring.pull(law, press, kMass, Vec3::UnitY(), slip, kStep).dot(slip) * kStep;
+      most_given = std::max(most_given, given);
+    }
+  }
+  EXPECT_LE(most_given, 1e-3 * kNormalForce * speed * kPulls * kStep);
 }
 
 // Where it comes to rest the spring alone bears the load, and nothing moves any more.
