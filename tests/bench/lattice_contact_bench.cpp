@@ -1,0 +1,43 @@
+// What contact costs a lattice of a thousand surface points: a tick in the air, and one at rest on
+// a floor, which takes 196 of them.
+
+#include <benchmark/benchmark.h>
+
+#include "bullet_bridge/co_simulation.h"
+#include "tests/bench/bench_models.h"
+#include "tests/bench/bullet_world.h"
+
+namespace limber::bullet {
+namespace {
+
+constexpr int kPointsAlongEdge = 14;  // 2,744 points, 1,016 of them on the surface
+constexpr double kSide = 0.5;         // m
+constexpr int kSettlingTicks = 30;
+
+void tick(benchmark::State& state, bool on_floor, SpringPrecision precision) {
+  bench::BulletWorld bullet;
+  if (on_floor) bullet.add_floor();
+  CoSimulationSettings settings;
+  settings.representation = Representation::kAlwaysFlexible;
+  settings.springs = precision;
+  CoSimulation limber(bullet.world(), settings);
+  limber.add(bench::brick(kPointsAlongEdge, kSide, Vec3(0.0, 1e-3, 0.0)));
+  for (int n = 0; n < kSettlingTicks; ++n) bullet.tick();
+  for (auto _ : state) bullet.tick();
+  if (limber.failure()) state.SkipWithError(limber.failure()->text().c_str());
+}
+BENCHMARK_CAPTURE(tick, in_the_air_single, false, SpringPrecision::kSingle)
+    ->Name("contact/lattice/in_the_air/single")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tick, in_the_air_double, false, SpringPrecision::kDouble)
+    ->Name("contact/lattice/in_the_air/double")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tick, on_a_floor_single, true, SpringPrecision::kSingle)
+    ->Name("contact/lattice/on_a_floor/single")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tick, on_a_floor_double, true, SpringPrecision::kDouble)
+    ->Name("contact/lattice/on_a_floor/double")
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace limber::bullet
