@@ -208,8 +208,9 @@ void expect_exchange(const Hit& hit, const Outcome& outcome) {
 // Each body's velocity, as a share of what the hit may change of it.
 void expect_same(const Hit& hit, const Outcome& outcome, const Outcome& reference) {
   const double of_partner = kSpeed / (1.0 + hit.ratio), of_lattice = kSpeed - of_partner;
-  // Measured 1.3e-3 (a hull that spins) and 7e-9 (a sphere of 1e-4 of the mass).
-  const double tolerance = by_precision(2e-3, 1e-8);
+  // Measured 1.3e-3 (a hull that spins) and 7e-9 (a sphere of 1e-4 of the mass): rounding, which
+  // differs from machine to machine.
+  const double tolerance = by_precision(5e-3, 1e-7);
   EXPECT_LT((outcome.partner_velocity - reference.partner_velocity).norm(), tolerance * of_partner);
   EXPECT_LT((outcome.lattice_velocity - reference.lattice_velocity).norm(), tolerance * of_lattice);
 }
