@@ -66,14 +66,20 @@ const std::set<std::string> kNotMetYet = {
     "block on a cylinder",
     "block on a cone",
     "block on a capsule",
-    "needle on a block at 20 m/s",
 };
+// Angular momentum to 1.8e-6, where 1e-6 is asked for: what Bullet's numbers round away.
+const std::set<std::string> kNotMetInSingle = {"needle on a block at 20 m/s"};
+
+bool is_not_met_yet(const Scene& scene) {
+  constexpr bool kSingle = sizeof(btScalar) == sizeof(float);
+  return kNotMetYet.contains(scene.name) || (kSingle && kNotMetInSingle.contains(scene.name));
+}
 
 class ContactScene : public testing::TestWithParam<Scene> {};
 
 TEST_P(ContactScene, MeetsItsDemands) {
   const Measured measured = run_scene(GetParam(), Engine::kLimber);
-  if (!kNotMetYet.contains(GetParam().name)) {
+  if (!is_not_met_yet(GetParam())) {
     EXPECT_TRUE(measured.good()) << measured.verdict();
   } else if (measured.good()) {
     ADD_FAILURE() << "meets its demands: take it off the list";
@@ -86,9 +92,6 @@ TEST_P(ContactScene, MeetsItsDemands) {
 TEST_P(ContactScene, GainsNoEnergyAtOtherTicks) {
   for (double tick : {1.0 / 30.0, 1.0 / 240.0}) {
     const Measured measured = run_scene(GetParam(), Engine::kLimber, tick);
-    if (!measured.failure.empty() && kNotMetYet.contains(GetParam().name)) {
-      GTEST_SKIP() << "known to be stopped by name: " << measured.failure;
-    }
     EXPECT_EQ(measured.failure, "");
     EXPECT_LE(measured.energy_rise, GetParam().limits.energy_rise * measured.energy_start);
   }
