@@ -172,6 +172,8 @@ Numbers CoSimulation::Impl::numbers_of(const Piece& piece, const Calmness& seen)
 }
 
 void CoSimulation::Impl::freeze_calm_pieces(double dt) {
+  const std::vector<std::uint8_t> yielding = contacts_.yielding_points(lattice_);
+  const auto yields = [&](std::int32_t p) { return yielding[p] != 0; };
   for (Piece* piece : flexible_pieces()) {
     const Calmness seen = look_at(*piece);
     piece->peak_load = seen.peak_load;
@@ -181,7 +183,8 @@ void CoSimulation::Impl::freeze_calm_pieces(double dt) {
       lattice_.peak_load[p] = 0.0;
     }
     if (!switching() || piece->pinned) continue;
-    const bool quiet = calm(piece->strength, settings_.switching, seen);
+    const bool quiet = calm(piece->strength, settings_.switching, seen) &&
+                       std::none_of(piece->points.begin(), piece->points.end(), yields);
     piece->calm_ticks = quiet ? piece->calm_ticks + 1 : 0;
     if (piece->calm_ticks <
         calm_ticks_needed(piece->strength, settings_.switching, piece->size, dt, piece->touched)) {

@@ -321,7 +321,7 @@ void CoSimulation::Impl::step_lattices(double dt) {
   for (const Piece* piece : surroundings.carried) {
     carried.push_back({&piece->proxy->body(), piece->points, piece->proxy->local()});
   }
-  contacts_.begin_tick(world_, lattice_, boundary_, surroundings.bodies, carried, dt);
+  contacts_.begin_tick(world_, boundary_, surroundings.bodies, carried, dt);
   const int substeps = substeps_for(dt);
   environment_.gravity = from_bullet(world_.getGravity());
   time_operator_.set_time(time_);

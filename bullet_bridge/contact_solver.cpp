@@ -37,10 +37,10 @@ double largest_speed(const ShadowBody& body, const btCollisionObject& object) {
 
 }  // namespace
 
-void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const Lattice& lattice,
-                               const BoundaryTracker& boundary, std::span<const NearBody> near,
+void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTracker& boundary,
+                               std::span<const NearBody> near,
                                std::span<const CarriedPiece> carried, double tick) {
-  shadows_.clear();
+  shadows_.next_tick();
   boundary_ = &boundary;
   surface_ = {};  // other points may have become flexible
   std::vector<Obstacle> last_tick = std::exchange(obstacles_, {});
@@ -156,6 +156,12 @@ void ContactSolver::correct_poses(double tick) {
 bool ContactSolver::touched(const btCollisionObject& object) const {
   const int i = shadows_.find(object);
   return i >= 0 && shadows_[i].touched;
+}
+
+std::vector<std::uint8_t> ContactSolver::yielding_points(const Lattice& lattice) const {
+  std::vector<std::uint8_t> points(lattice.motion.size(), 0);
+  for (const Obstacle& obstacle : obstacles_) obstacle.mark_yielding(points);
+  return points;
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -33,12 +34,15 @@ class ContactSolver : public SubstepCoupling {
  public:
   // `near`: bodies that the lattice may reach in this tick, in a fixed order. `boundary` has to
   // follow the lattice's breaks.
-  void begin_tick(btDiscreteDynamicsWorld& world, const Lattice& lattice,
-                  const BoundaryTracker& boundary, std::span<const NearBody> near,
-                  std::span<const CarriedPiece> carried, double tick);
+  void begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTracker& boundary,
+                  std::span<const NearBody> near, std::span<const CarriedPiece> carried,
+                  double tick);
 
   // In a tick without lattices: what contacts remembered is no longer true.
-  void forget() { obstacles_.clear(); }
+  void forget() {
+    obstacles_.clear();
+    shadows_ = {};
+  }
 
   void add_forces(Lattice& lattice, double dt) override;
   void advance(Lattice& lattice, double dt) override;
@@ -49,6 +53,10 @@ class ContactSolver : public SubstepCoupling {
 
   // Did the lattice push the body in this tick, directly or through others?
   bool touched(const btCollisionObject& body) const;
+
+  // Points, shape (P), that have sunk into bodies and are on their way out still: what has them is
+  // not at rest, however steadily it moves.
+  std::vector<std::uint8_t> yielding_points(const Lattice& lattice) const;
 
  private:
   void list_pairs(const Lattice& lattice, double dt);

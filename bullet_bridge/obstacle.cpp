@@ -34,6 +34,10 @@ constexpr double kDeepStepShare = 0.03;
 constexpr double kThinShare = 0.1;
 constexpr double kThinMost = 0.4;  // softened or not
 
+// At this many times that depth it stops what the springs do not: a light point under a heavy
+// thing.
+constexpr double kDeepest = 2.0;
+
 // What all contacts of a body may take together of the step's limit on the body's side.
 constexpr double kBodyStepShare = 0.05;
 
@@ -44,6 +48,13 @@ constexpr double kPutMargin = 0.01;
 // The deepest place of a face is looked for to this share of the face's size: the force then is
 // wrong by as much as a tenth of a millimetre of depth on a face of 10 cm.
 constexpr double kDepthTolerance = 1e-3;
+
+// At rest a contact bears its whole elastic force. One that bears less than this share of it, and
+// is deeper than what comes out in a tick of 1/60 s, m, is on its way out.
+constexpr double kBearingShare = 0.5;
+constexpr double kLeastYielding = kYieldSpeed / 60.0;
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 PenaltyContact law_between(const LatticeObject& object, const btCollisionObject& body) {
   const ObjectAttributes& attributes = object.authored.object;
@@ -61,7 +72,7 @@ double eased(double depth, double& offset, double dt) {
 }
 
 double thickness(const ContactPart& part) {  // m
-  if (part.kind == ContactPart::Kind::kTriangles) return std::numeric_limits<double>::infinity();
+  if (part.kind == ContactPart::Kind::kTriangles) return kNoLimit;
   return (part.own_high - part.own_low).minCoeff();
 }
 
@@ -131,6 +142,10 @@ bool is_behind(const Vec3& contact_normal, const Vec3& outwards) {
 
 }  // namespace
 
+Vec3 PointPlace::velocity_after(const Lattice& lattice, double dt) const {
+  return limber::velocity_after(lattice, point, dt);
+}
+
 void PointPlace::add_force(Lattice& lattice, const Vec3& force) const {
   lattice.force[point] += force;
   lattice.touched[point] = 1;
@@ -145,6 +160,12 @@ Vec3 FacePlace::position(const Lattice& lattice) const {
 Vec3 FacePlace::velocity(const Lattice& lattice) const {
   Vec3 sum = weights[0] * lattice.motion[corners[0]].velocity;
   for (int i = 1; i < 3; ++i) sum += weights[i] * lattice.motion[corners[i]].velocity;
+  return sum;
+}
+
+Vec3 FacePlace::velocity_after(const Lattice& lattice, double dt) const {
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) sum += weights[i] * limber::velocity_after(lattice, corners[i], dt);
   return sum;
 }
 
@@ -308,6 +329,16 @@ void Obstacle::press(Lattice& lattice, const LatticeSurface& surface, ShadowBody
   sharers_ = std::max(1, pushed_);
 }
 
+void Obstacle::mark_yielding(std::vector<std::uint8_t>& points) const {
+  for (const PointPair& pair : points_) {
+    if (pair.yields) points[pair.of] = 1;
+  }
+  for (const FacePair& pair : faces_) {
+    if (!pair.yields) continue;
+    for (std::int32_t p : pair.corners) points[p] = 1;
+  }
+}
+
 void Obstacle::press_point(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body,
                            PointPair& pair, double dt) {
   const ContactPart& part = parts_[pair.listed];
@@ -353,6 +384,9 @@ PenaltyContact Obstacle::law_at(const Lattice& lattice, std::int32_t point, cons
   law.soft_depth = std::min(kSoftShare * dents * lattice.contact_radius[point],
                             std::min(kThinShare * dents, kThinMost) * thickness(part));
   law.deep_frequency = std::max(law.frequency, 2.0 * std::sqrt(kDeepStepShare) / dt);
+  // What implicit springs do to a speed is not foreseen: it cannot be stopped.
+  law.deepest =
+      object.implicit ? kNoLimit : std::min(kDeepest * law.soft_depth, kThinMost * thickness(part));
   return law;
 }
 
@@ -370,11 +404,22 @@ double Obstacle::effective_mass(const Lattice& lattice, const ShadowBody& body, 
   return 1.0 / (own + std::max(behind, needed));
 }
 
+// 1/kg: what an impulse changes of the closing speed, with the same one at each of the contacts
+// that share the body. Contacts that each stop their own share stop it together and no more.
+template <class Place>
+double Obstacle::gain_of(const Lattice& lattice, const ShadowBody& body, const Place& place,
+                         const Vec3& normal) const {
+  const double own = place.inverse_mass(lattice);
+  if (!body.movable()) return own;
+  return own + sharers_ * body.inverse_effective_mass(place.position(lattice), normal);
+}
+
 template <class Place>
 void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const Place& place,
                     const Penetration& contact, double dt) {
   PassiveContact& books = pair.books;
-  if (books.impulse > 0.0) {
+  const bool counted = books.open;
+  if (books.open) {
     const Vec3 now = slip_at(lattice, body, pair.pressed);
     books.settle(-now.dot(pair.normal));
     pair.friction.settle(now - now.dot(pair.normal) * pair.normal, dt);
@@ -386,23 +431,33 @@ void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const
   if (std::isinf(books.mass)) return;
   const Vec3 slip = slip_at(lattice, body, place);
   const double separation = slip.dot(normal);
-  const PenaltyContact law = law_at(lattice, place.lawgiver(), parts_[pair.listed], dt);
-  double most = books.largest_impulse(-separation);
+  PenaltyContact law = law_at(lattice, place.lawgiver(), parts_[pair.listed], dt);
+  if (!counted) law.deepest = kNoLimit;  // it is not among the sharers yet
+  const double foreseen =
+      (body.velocity_at(place.position(lattice)) - place.velocity_after(lattice, dt)).dot(normal);
+  const double without = books.closing_without(foreseen);
+  const bool foreseeable = !is_implicit(lattice, place.lawgiver());
+  const double after = foreseeable ? without : -separation;
+  double most = books.largest_impulse(0.5 * (after - separation));
   if (pair.offset > 0.0) {
     books.forgive(law.elastic_energy(books.mass, std::max(0.0, depth)));
     most = std::max(most, books.mass * (kEaseSpeed - separation));
   }
-  const double press = std::min(penalty_force(law, books.mass, depth, separation), most / dt);
+  const double gain = gain_of(lattice, body, place, normal) * dt;
+  const double wanted = bearing_force(law, books.mass, depth, -without, gain, dt);
+  const double press = std::min(wanted, most / dt);
+  books.give(press * dt, -separation, foreseen - press * gain);
+  ++pushed_;
+  pair.pressed = place;
+  pair.normal = normal;
+  pair.yields =
+      depth > kLeastYielding && press < kBearingShare * law.elastic_force(books.mass, depth);
   if (press <= 0.0) return;
   const Vec3 force = press * normal + pair.friction.pull(law, press, books.mass, normal,
                                                          slip - separation * normal, dt);
   place.add_force(lattice, force);
   if (body.movable()) body.add_force(-force, place.position(lattice));
-  books.give(press * dt, -separation);
-  pair.pressed = place;
-  pair.normal = normal;
   pair.holds = true;
-  ++pushed_;
 }
 
 template <class Place>
@@ -410,7 +465,7 @@ void Obstacle::Pair<Place>::let_go() {
   offset = 0.0;
   books = {};
   friction = {};
-  holds = false;
+  holds = yields = false;
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

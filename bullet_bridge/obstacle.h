@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "bullet_bridge/lattice_surface.h"
@@ -16,13 +17,14 @@ namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
 // Where a lattice is pressed: at a point, or on a face between its corners. `inverse_mass`: 1/kg,
-// for a force there.
+// for a force there. `velocity_after`: at the substep's end, by the forces summed so far.
 struct PointPlace {
   std::int32_t point = -1;
 
   std::int32_t lawgiver() const { return point; }
   Vec3 position(const Lattice& lattice) const { return lattice.motion[point].position; }
   Vec3 velocity(const Lattice& lattice) const { return lattice.motion[point].velocity; }
+  Vec3 velocity_after(const Lattice& lattice, double dt) const;
   double inverse_mass(const Lattice& lattice) const { return lattice.inverse_mass[point]; }
   void add_force(Lattice& lattice, const Vec3& force) const;
 };
@@ -33,6 +35,7 @@ struct FacePlace {
   std::int32_t lawgiver() const { return corners[0]; }
   Vec3 position(const Lattice& lattice) const;
   Vec3 velocity(const Lattice& lattice) const;
+  Vec3 velocity_after(const Lattice& lattice, double dt) const;
   double inverse_mass(const Lattice& lattice) const;
   void add_force(Lattice& lattice, const Vec3& force) const;
 };
@@ -67,6 +70,9 @@ class Obstacle {
   // Adds the forces of all pairs that touch, equal and opposite, to points and shadow.
   void press(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body, double dt);
 
+  // Marks the points, shape (P), at which what has sunk in is on its way out still.
+  void mark_yielding(std::vector<std::uint8_t>& points) const;
+
  private:
   // Of a place and a part.
   template <class Place>
@@ -76,11 +82,12 @@ class Obstacle {
     std::size_t listed;  // where the part is in parts_
     PointTrack track;
     double offset;  // m of penetration that was there when the pair was first seen
-    Place pressed;  // in the last substep, if its books have an impulse
+    Place pressed;  // in the last substep, if its books are open
     Vec3 normal;    // along which, world
     PassiveContact books;
     FrictionSpring friction;
-    bool holds = false;  // it has pressed since it came in
+    bool holds = false;   // it has pressed since it came in
+    bool yields = false;  // it is deeper than what it bears would have it
 
     void let_go();
   };
@@ -110,6 +117,9 @@ class Obstacle {
   template <class Place>
   double effective_mass(const Lattice& lattice, const ShadowBody& body, const Place& place,
                         const Vec3& normal) const;
+  template <class Place>
+  double gain_of(const Lattice& lattice, const ShadowBody& body, const Place& place,
+                 const Vec3& normal) const;
   template <class Place>
   void push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const Place& place,
             const Penetration& contact, double dt);

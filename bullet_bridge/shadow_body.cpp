@@ -45,6 +45,26 @@ void keep_angular_momentum(const ShadowBody& shadow, const Vec3& shift) {
   body.setAngularVelocity(to_bullet(now * (now.conjugate() * L).cwiseProduct(inverse)));
 }
 
+bool has_velocity_of(const btRigidBody& body, const ShadowBody& shadow) {
+  return body.getLinearVelocity() == to_bullet(shadow.velocity) &&
+         body.getAngularVelocity() == to_bullet(shadow.angular_velocity);
+}
+
+// Bullet starts from a matrix, moved_by_bullet() from a quaternion.
+bool is_same_but_rounding(const btTransform& a, const btTransform& b) {
+  constexpr btScalar kRounding = 16 * SIMD_EPSILON;
+  const btScalar size = btMax(b.getOrigin().length(), btScalar(1));
+  return (a.getOrigin() - b.getOrigin()).length() < kRounding * size &&
+         (a.getBasis() - b.getBasis()).getColumn(0).length() < kRounding &&
+         (a.getBasis() - b.getBasis()).getColumn(1).length() < kRounding;
+}
+
+void place(btRigidBody& body, const btTransform& pose) {
+  body.setWorldTransform(pose);
+  body.setInterpolationWorldTransform(pose);
+  body.updateInertiaTensor();
+}
+
 }  // namespace
 
 ShadowBody make_shadow(const btCollisionObject& object) {
@@ -75,20 +95,35 @@ void write_velocity(const ShadowBody& shadow, const Vec3& velocity) {
   shadow.body->setFlags(shadow.flags & ~kGyroscopicFlags);
 }
 
-void correct_pose(const ShadowBody& shadow, double tick) {
+void correct_pose(ShadowBody& shadow, double tick) {
   btRigidBody& body = *shadow.body;
   const btTransform straight = moved_by_bullet(shadow, tick);
+  body.setFlags(shadow.flags);
+  if (has_velocity_of(body, shadow) && is_same_but_rounding(body.getWorldTransform(), straight)) {
+    shadow.left_at.emplace(to_bullet(shadow.orientation), to_bullet(shadow.position));
+    place(body, *shadow.left_at);
+    return;
+  }
   const Vec3 shift = shadow.position - from_bullet(straight.getOrigin());
   const Eigen::Quaterniond turn =
       shadow.orientation * from_bullet(straight.getRotation()).conjugate();
   btTransform pose = body.getWorldTransform();
   pose.setOrigin(to_bullet(from_bullet(pose.getOrigin()) + shift));
   pose.setRotation(to_bullet((turn * from_bullet(pose.getRotation())).normalized()));
-  body.setWorldTransform(pose);
-  body.setInterpolationWorldTransform(pose);
-  body.updateInertiaTensor();
+  place(body, pose);
   keep_angular_momentum(shadow, shift);
-  body.setFlags(shadow.flags);
+}
+
+void go_on_from(ShadowBody& shadow, const ShadowBody& last_tick) {
+  if (!last_tick.left_at || !shadow.movable()) return;
+  const btRigidBody& body = *shadow.body;
+  if (!(body.getWorldTransform() == *last_tick.left_at)) return;
+  if (!has_velocity_of(body, last_tick)) return;
+  shadow.position = shadow.start_position = last_tick.position;
+  shadow.orientation = shadow.start_orientation = last_tick.orientation;
+  shadow.velocity = last_tick.velocity;
+  shadow.angular_velocity = last_tick.angular_velocity;
+  refresh_rotation(shadow);
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -5,7 +5,10 @@
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "bullet_bridge/conversions.h"
 
@@ -15,6 +18,8 @@ namespace {
 
 // Sweeps a substep. Impulses are carried over hundreds of substeps a tick, so that few are needed.
 constexpr int kSweeps = 3;
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 bool carries_load(const btPersistentManifold& manifold) {
   return manifold.getNumContacts() > 0 && manifold.getBody0()->hasContactResponse() &&
@@ -101,14 +106,28 @@ void start_from_last_impulse(const PreparedContact& prepared, ShadowSet& shadows
   prepared.axis[2].push(a, b, c.tangent_impulse[1]);
 }
 
-// Changes one accumulated impulse so that the relative speed along the axis becomes `wanted`,
-// within [low, high].
+// Changes one accumulated impulse so that the relative speed along the axis becomes `wanted`, but
+// not below `low`.
 void solve_axis(const Axis& axis, ShadowBody& a, ShadowBody& b, double wanted, double low,
-                double high, double& accumulated) {
+                double& accumulated) {
   const double change = (wanted - axis.relative_speed(a, b)) * axis.effective_mass;
-  const double total = std::clamp(accumulated + change, low, high);
+  const double total = std::max(accumulated + change, low);
   axis.push(a, b, total - accumulated);
   accumulated = total;
+}
+
+// Coulomb's cone: with the two tangents limited one by one, friction would point along a diagonal
+// between them and push what slides off its line.
+void limit_friction(const PreparedContact& prepared, ShadowBody& a, ShadowBody& b) {
+  SupportContact& c = *prepared.contact;
+  const double most = c.friction * c.impulse;
+  const double size = std::hypot(c.tangent_impulse[0], c.tangent_impulse[1]);
+  if (size <= most) return;
+  for (int t = 0; t < 2; ++t) {
+    const double limited = c.tangent_impulse[t] * (most / size);
+    prepared.axis[t + 1].push(a, b, limited - c.tangent_impulse[t]);
+    c.tangent_impulse[t] = limited;
+  }
 }
 
 void solve_contact(const PreparedContact& prepared, ShadowSet& shadows, double dt) {
@@ -116,11 +135,11 @@ void solve_contact(const PreparedContact& prepared, ShadowSet& shadows, double d
   ShadowBody& a = shadows[c.a];
   ShadowBody& b = shadows[c.b];
   // An open contact may close within dt; faster separation is left alone because low = 0.
-  solve_axis(prepared.axis[0], a, b, -prepared.gap / dt, 0.0, 1e300, c.impulse);
-  const double most = c.friction * c.impulse;
+  solve_axis(prepared.axis[0], a, b, -prepared.gap / dt, 0.0, c.impulse);
   for (int t = 0; t < 2; ++t) {
-    solve_axis(prepared.axis[t + 1], a, b, 0.0, -most, most, c.tangent_impulse[t]);
+    solve_axis(prepared.axis[t + 1], a, b, 0.0, -kNoLimit, c.tangent_impulse[t]);
   }
+  limit_friction(prepared, a, b);
 }
 
 int root_of(std::vector<int>& parent, int i) {
@@ -130,16 +149,18 @@ int root_of(std::vector<int>& parent, int i) {
 
 }  // namespace
 
-void ShadowSet::clear() {
-  shadows_.clear();
+void ShadowSet::next_tick() {
+  last_tick_ = std::exchange(shadows_, {});
+  last_index_ = std::exchange(index_, {});
   objects_.clear();
-  index_.clear();
 }
 
 int ShadowSet::shadow_of(const btCollisionObject& object) {
   const auto [found, inserted] = index_.try_emplace(&object, size());
   if (inserted) {
     shadows_.push_back(make_shadow(object));
+    const auto then = last_index_.find(&object);
+    if (then != last_index_.end()) go_on_from(shadows_.back(), last_tick_[then->second]);
     objects_.push_back(&object);
   }
   return found->second;

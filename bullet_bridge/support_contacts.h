@@ -13,7 +13,8 @@ inline namespace LIMBER_BULLET_PRECISION {
 // The shadows of one tick, found by the body they stand for.
 class ShadowSet {
  public:
-  void clear();
+  // Those of the last tick are known still; not those before.
+  void next_tick();
   // The shadow of an object, made on first use.
   int shadow_of(const btCollisionObject& object);
   // -1 when it has none.
@@ -24,9 +25,11 @@ class ShadowSet {
   int size() const { return static_cast<int>(shadows_.size()); }
 
  private:
-  std::vector<ShadowBody> shadows_;
+  using Index = std::unordered_map<const btCollisionObject*, int>;  // for look-ups, never iterated
+
+  std::vector<ShadowBody> shadows_, last_tick_;
   std::vector<const btCollisionObject*> objects_;
-  std::unordered_map<const btCollisionObject*, int> index_;  // for look-ups, never iterated
+  Index index_, last_index_;
 };
 
 // A point where two bodies of Bullet touch, kept for one tick: what carries a body that a lattice

@@ -18,6 +18,7 @@ struct PenaltyContact {
   double friction = 0.0;                                        // Coulomb coefficient
   double soft_depth = std::numeric_limits<double>::infinity();  // m, to which omega_c holds
   double deep_frequency = 0.0;                                  // rad/s, beyond that
+  double deepest = std::numeric_limits<double>::infinity();     // m, see bearing_force()
 
   // Force without restitution, N.
   double elastic_force(double reduced_mass, double depth) const {
@@ -47,6 +48,38 @@ inline double penalty_force(const PenaltyContact& law, double reduced_mass, doub
   if (depth <= 0.0) return 0.0;
   const double e = std::max(law.restitution, kLeastRestitution);
   return (separation_speed > 0.0 ? e * e : 1.0) * law.elastic_force(reduced_mass, depth);
+}
+
+// What has been pressed in deeper than it has to be comes out at this speed, m/s, at the most
+// (from there it would rise by half a millimetre), and with this time constant, s, at the end. That
+// is aperiodic for all that lies less deep than g kYieldTime^2 / 4 = 2.5 cm, whatever its mass.
+inline constexpr double kYieldSpeed = 0.1;
+inline constexpr double kYieldTime = 0.1;
+inline constexpr double kStopSubsteps = 4.0;
+
+// Normal force, N, of a contact that may have to bear a load. Moore and Wilhelms' law has two
+// values at rest, k d and e^2 k d: what is borne stays as deep as it was ever pressed, and
+// trembles. This one lies between them, as a spring and a damper that let out what is too deep at
+// the speeds above: k d (1 - s / s_out), by backward Euler, as such a damper is beyond every
+// explicit step. So it rests at the depth at which k d bears the load, and hits give back e^2 as
+// before.
+//
+// What the springs do not hold, whose stiffness the step bounds, is stopped before it is deeper
+// than `deepest`: it may come no faster than kStopSubsteps would take there. That only takes
+// energy.
+//
+// `separation_without`: m/s after this substep if the contact did nothing, by all other forces; the
+// speed of the moment would leave out the load, and what is heavy would creep in. `gain`: m/s by
+// which a newton changes that.
+inline double bearing_force(const PenaltyContact& law, double reduced_mass, double depth,
+                            double separation_without, double gain, double dt) {
+  if (depth <= 0.0) return 0.0;
+  const double elastic = law.elastic_force(reduced_mass, depth);
+  const double out = std::min(depth / kYieldTime, kYieldSpeed);
+  const double damped = elastic * (out - separation_without) / (out + elastic * gain);
+  const double borne = std::clamp(damped, law.restitution * law.restitution * elastic, elastic);
+  const double may_close = std::max(0.0, law.deepest - depth) / (kStopSubsteps * dt);
+  return std::max(borne, (-separation_without - may_close) / gain);
 }
 
 // Share of the tangential momentum that sticking friction removes in one substep. 1 would stop a

@@ -203,7 +203,7 @@ bool SurfaceContacts::is_inside(const Lattice& lattice,
 
 void SurfaceContacts::follow(const Lattice& lattice) {
   for (Held& held : held_) {
-    if (held.books.impulse > 0.0) {
+    if (held.books.open) {
       held.books.settle(-separation_speed(held.contact, motion_of(lattice, held)));
     }
     held.released = !is_present(lattice, surface_, held.point, held.place.face);
@@ -239,6 +239,15 @@ FaceMotion SurfaceContacts::motion_of(const Lattice& lattice, const Held& held) 
           {lattice.motion[a].velocity, lattice.motion[b].velocity, lattice.motion[c].velocity}};
 }
 
+// By the forces summed so far.
+FaceMotion SurfaceContacts::motion_after(const Lattice& lattice, const Held& held,
+                                         double dt) const {
+  const auto& [a, b, c] = surface_.corners(held.place.face);
+  return {velocity_after(lattice, held.point, dt),
+          {velocity_after(lattice, a, dt), velocity_after(lattice, b, dt),
+           velocity_after(lattice, c, dt)}};
+}
+
 FaceMobility SurfaceContacts::mobility_of(const Lattice& lattice, const Held& held) const {
   const auto of = [&](std::int32_t p) { return shares_[p] * lattice.inverse_mass[p]; };
   const auto& [a, b, c] = surface_.corners(held.place.face);
@@ -255,13 +264,22 @@ void SurfaceContacts::push(Lattice& lattice, Held& held, double dt) {
   books.share_mass(contact_mass(contact, mobility));
   if (std::isinf(books.mass)) return;
   held.offset = std::min(std::max(0.0, held.offset - kEaseSpeed * dt), contact.depth);
-  double most = books.largest_impulse(-separation);
+  const double foreseen = -separation_speed(contact, motion_after(lattice, held, dt));
+  const double without = books.closing_without(foreseen);
+  const bool foreseeable = !is_implicit(lattice, held.point) &&
+                           !is_implicit(lattice, surface_.corners(held.place.face)[0]);
+  const double after = foreseeable ? without : -separation;
+  double most = books.largest_impulse(0.5 * (after - separation));
   if (held.offset > 0.0) {
     books.forgive(0.0);
     most = std::max(most, books.mass * (kEaseSpeed - separation));
   }
-  const double press =
-      std::min(penalty_force(law, books.mass, contact.depth - held.offset, separation), most / dt);
+  const double gain = dt / books.mass;
+  const double wanted =
+      bearing_force(law, books.mass, contact.depth - held.offset, -without, gain, dt);
+  const double press = std::min(wanted, most / dt);
+  books.give(press * dt, -separation, foreseen - press * gain);
+  held.contact = contact;
   if (press <= 0.0) return;
   FaceForces forces = push_apart(contact, press);
   if (law.friction > 0.0 && held.place.within) {
@@ -275,8 +293,6 @@ void SurfaceContacts::push(Lattice& lattice, Held& held, double dt) {
     lattice.force[corner] += forces.on_corners[i];
     lattice.touched[corner] = 1;
   }
-  held.contact = contact;
-  books.give(press * dt, -separation);
 }
 
 }  // namespace limber

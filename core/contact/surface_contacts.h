@@ -86,6 +86,7 @@ class SurfaceContacts {
   void push(Lattice& lattice, Held& held, double dt);
   PenaltyContact law_of(const Lattice& lattice, const Held& held, double dt) const;
   FaceMotion motion_of(const Lattice& lattice, const Held& held) const;
+  FaceMotion motion_after(const Lattice& lattice, const Held& held, double dt) const;
   FaceMobility mobility_of(const Lattice& lattice, const Held& held) const;
 
   OuterSurface surface_;

@@ -45,6 +45,7 @@ struct LatticeObject {
   double contact_frequency = 0.0;  // omega_c of penalty.h, rad/s
   bool has_loose_points = false;   // without a spring: grains, and what broke off before
   bool heeds_strain = false;       // larger strains need smaller steps: see LargestStrain
+  bool implicit = false;           // by implicit Euler: forces do not have those of its springs
   double least_mass = 0.0;         // kg, of a point
   double largest_step = 0.0;       // s, stable with its springs and contacts
 };
@@ -93,6 +94,18 @@ double length_of(const Lattice& lattice, std::int32_t edge);
 
 // Has this edge passed one of its thresholds?
 bool is_overstretched(const Lattice& lattice, std::int32_t edge);
+
+inline bool is_implicit(const Lattice& lattice, std::int32_t p) {
+  return lattice.objects[lattice.point_object[p]].implicit;
+}
+
+// m/s, at the end of a substep of dt (s) by the forces summed so far; of points that are not
+// dynamic the present one.
+inline Vec3 velocity_after(const Lattice& lattice, std::int32_t p, double dt) {
+  const Vec3& velocity = lattice.motion[p].velocity;
+  if (lattice.role[p] != PointRole::kDynamic) return velocity;
+  return velocity + lattice.force[p] * (dt * lattice.inverse_mass[p]);
+}
 
 // Appends a model; all its points start dynamic. Throws InputError where validate() objects.
 // Returns the index of the object. Call rebuild_active() afterwards.

@@ -74,6 +74,7 @@ void TimeOperator::make_implicit(std::size_t object) {
                       "use symplectic Euler for the others"});
   }
   implicit_.add(object);
+  lattice_.objects[object].implicit = true;
   springs_.keep_in_double(object);
 }
 
@@ -187,13 +188,13 @@ void TimeOperator::sum_forces(const Environment& environment, double time, doubl
   apply_gravity(environment.gravity);
   springs_.add(dt);
   contacts_.add_forces(lattice_);
-  surface_contacts_.add_forces(lattice_, dt);
   if (environment.air) {
     add_face_forces(faces_, *environment.air, time, lattice_.motion, lattice_.force);
   }
   for (std::size_t i = 0; i < coupling_force_.size(); ++i) {
     lattice_.force[lattice_.dynamic_points[i]] += coupling_force_[i];
   }
+  surface_contacts_.add_forces(lattice_, dt);  // goes by all the others
   supports_ = {};
   if (!environment.ground) return;
   ground_.add_forces(lattice_, *environment.ground, implicit_.explicit_points(lattice_), weight);
@@ -222,13 +223,14 @@ void TimeOperator::make_all_implicit() {
   if (integrator_ != Integrator::kImplicitEuler) return;
   for (std::size_t o = 0; o < lattice_.objects.size(); ++o) {
     if (!implicit_.contains(o)) implicit_.add(o);
+    lattice_.objects[o].implicit = true;
   }
 }
 
 void TimeOperator::step_runge_kutta(const ButcherTableau& tableau, const Environment& environment,
                                     double dt, SubstepCoupling* coupling) {
   const std::size_t count = lattice_.dynamic_points.size();
-  evaluate_coupling(dt, coupling);
+  evaluate_coupling(environment.gravity, dt, coupling);
   start_.resize(count);
   slopes_.resize(count * tableau.stages);
   for (std::size_t i = 0; i < count; ++i) start_[i] = lattice_.motion[lattice_.dynamic_points[i]];
@@ -245,11 +247,15 @@ void TimeOperator::step_runge_kutta(const ButcherTableau& tableau, const Environ
   coupling_force_.clear();
 }
 
-void TimeOperator::evaluate_coupling(double dt, SubstepCoupling* coupling) {
+void TimeOperator::evaluate_coupling(const Vec3& gravity, double dt, SubstepCoupling* coupling) {
   if (!coupling) return;
-  apply_gravity(Vec3::Zero());
+  apply_gravity(gravity);
+  springs_.add(dt);  // contacts go by the other forces
+  for (std::int32_t p : lattice_.dynamic_points) coupling_force_.push_back(-lattice_.force[p]);
   coupling->add_forces(lattice_, dt);
-  for (std::int32_t p : lattice_.dynamic_points) coupling_force_.push_back(lattice_.force[p]);
+  for (std::size_t i = 0; i < coupling_force_.size(); ++i) {
+    coupling_force_[i] += lattice_.force[lattice_.dynamic_points[i]];
+  }
 }
 
 void TimeOperator::move_to_stage(const ButcherTableau& tableau, int stage, double dt) {

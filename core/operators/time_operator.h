@@ -22,7 +22,8 @@ namespace limber {
 class SubstepCoupling {
  public:
   virtual ~SubstepCoupling() = default;
-  // Adds to lattice.force of dynamic and carried points. Once a substep.
+  // Adds to lattice.force of dynamic and carried points, which has gravity's and the explicit
+  // springs' forces already. Once a substep.
   virtual void add_forces(Lattice& lattice, double dt) = 0;
   // Reads lattice.force of carried points and moves them on by dt.
   virtual void advance(Lattice& lattice, double dt) = 0;
@@ -139,7 +140,7 @@ class TimeOperator {
   void step_symplectic(const Environment& environment, double dt, SubstepCoupling* coupling);
   void step_runge_kutta(const ButcherTableau& tableau, const Environment& environment, double dt,
                         SubstepCoupling* coupling);
-  void evaluate_coupling(double dt, SubstepCoupling* coupling);
+  void evaluate_coupling(const Vec3& gravity, double dt, SubstepCoupling* coupling);
   void move_to_stage(const ButcherTableau& tableau, int stage, double dt);
   void complete_stages(const ButcherTableau& tableau, double dt);
   void integrate(double dt);

@@ -66,7 +66,9 @@ TEST(LockedAxes, ABodyThatMayNotMoveBearsWhatFallsOnIt) {
   const Hit post = hit(Vec3::Zero(), Vec3::Zero());
   EXPECT_EQ(post.velocity, Vec3::Zero());
   EXPECT_EQ(post.angular_velocity, Vec3::Zero());
-  EXPECT_GT(post.height, 0.2);  // half the box and half the block are 0.25
+  // Half the box and half the block are 0.25; without contact it would be at 0.07, and on a box
+  // that gives way it is at 0.13.
+  EXPECT_GT(post.height, 0.19);
   EXPECT_LE(post.energy_end, post.energy_start);
 }
 

@@ -148,6 +148,8 @@ class Scene {
     }
     body_ = &world_.add(std::move(shape), hit_.ratio * kMass, centre);
     body_->setActivationState(DISABLE_DEACTIVATION);
+    // A cube has no gyroscopic torque; in float32 Bullet's costs 5e-8 of its spin in every tick.
+    if (hit_.partner == Partner::kBox) body_->setFlags(0);
     body_->setLinearVelocity(to_bullet(partner_velocity(hit_)));
     body_->setAngularVelocity(to_bullet(spin));
   }

@@ -30,6 +30,10 @@ struct Stack {
   double tolerance;              // m/s
 };
 
+double lightest(const Stack& stack) {  // kg
+  return *std::min_element(stack.masses.begin(), stack.masses.end());
+}
+
 void PrintTo(const Stack& stack, std::ostream* out) { *out << stack.name; }
 
 struct Outcome {
@@ -168,22 +172,23 @@ class StackImpact : public testing::TestWithParam<Stack> {};
 
 constexpr double kSeconds = 0.2;
 
-// Boxes of a quarter of the lattice's 8 kg and more follow to 8 % of the impact speed, one and a
-// half ticks of gravity: Bullet's own contacts between them are no sharper.
-constexpr double kSolid = 0.08 * kImpactSpeed;
-// Where boxes of 0.2 kg, a fortieth, lie under it, which of a box's corners Bullet keeps in its
-// manifold at the tick's start decides how the box tips: measured 0.05 to 0.30 m/s, the median of
-// starts a nanometre apart 0.12 to 0.2.
-constexpr double kLight = 0.12 * kImpactSpeed;
-// A blow to the side starts the top box sliding on the next, which a tick of 1/60 s and one of a
-// substep take for sticking or not: 0.35 m/s in float64, 0.22 in float32, whatever the start.
-constexpr double kSideways = 0.12 * kImpactSpeed;
+// Boxes follow to 8 % of the impact speed, one and a half ticks of gravity: Bullet's own contacts
+// between them are no sharper (measured up to 0.11 m/s).
+constexpr double kTypical = 0.08 * kImpactSpeed;
+// Here Bullet's manifold between the two lower boxes has lost a corner when the tick begins, and
+// has the middle of an edge instead: the boxes tip over there for a whole tick of 1/60 s, while a
+// tick of a substep finds the corner again (0.40 m/s in float64, 0.26 in float32).
+constexpr double kLostCorner = 0.15 * kImpactSpeed;
 
 // Where light boxes tip is chaotic: moved by a nanometre, the same run has rims that deviate by
 // 0.09 to 1.04 m/s. What is typical of such starts is not.
+bool is_chaotic(const Stack& stack) {
+  return lightest(stack) < 1.0 && stack.offset != Vec3::Zero();
+}
+
 std::vector<Stack> starts_of(const Stack& stack) {
   std::vector<Stack> starts;
-  for (int k = 0; k < (stack.tolerance > kSolid ? 5 : 1); ++k) {
+  for (int k = 0; k < (is_chaotic(stack) ? 5 : 1); ++k) {
     starts.push_back(stack);
     starts.back().offset.x() += k * 1e-9;
   }
@@ -210,8 +215,7 @@ void expect_small(const Deviation& deviation, const Stack& stack) {
   // Overlap of boxes 300 mm high beyond the reference's: 5 mm for solid ones. A box of 0.2 kg that
   // 8 kg press on within one tick sinks farther before Bullet mends it (measured up to 10.9 mm,
   // float32; one start in five of a nanometre's difference 45 mm, float64).
-  const double lightest = *std::min_element(stack.masses.begin(), stack.masses.end());  // kg
-  EXPECT_LT(deviation.box_depth, lightest < 1.0 ? 0.012 : 0.005);
+  EXPECT_LT(deviation.box_depth, lightest(stack) < 1.0 ? 0.012 : 0.005);
   EXPECT_LT(deviation.velocity, velocity_tolerance);
   EXPECT_LT(deviation.spin, 2.0 * velocity_tolerance);
   EXPECT_LT(deviation.position, velocity_tolerance * kSeconds);
@@ -251,20 +255,20 @@ const Vec3 kDrift(1.0, 0.0, 0.5);
 INSTANTIATE_TEST_SUITE_P(
     Masses, StackImpact,
     testing::Values(
-        Stack{"Equal", {2, 2, 2}, Vec3::Zero(), kAtRest, kSolid},
-        Stack{"LightOnHeavy", {20, 2, 0.2}, Vec3::Zero(), kAtRest, kSolid},
-        Stack{"HeavyOnLight", {0.2, 2, 20}, Vec3::Zero(), kAtRest, kSolid},
-        Stack{"AllLight", {0.2, 0.2, 0.2}, Vec3::Zero(), kAtRest, kSolid},
-        Stack{"AllHeavy", {20, 20, 20}, Vec3::Zero(), kAtRest, kSolid},
-        Stack{"EqualOffCentre", {2, 2, 2}, kOff, kDrift, kSolid},
-        Stack{"LightOnHeavyOffCentre", {20, 2, 0.2}, kOff, kDrift, kLight},
-        Stack{"HeavyOnLightOffCentre", {0.2, 2, 20}, kOff, kDrift, kSolid},
-        Stack{"AllLightOffCentre", {0.2, 0.2, 0.2}, kOff, kDrift, kLight},
+        Stack{"Equal", {2, 2, 2}, Vec3::Zero(), kAtRest, kTypical},
+        Stack{"LightOnHeavy", {20, 2, 0.2}, Vec3::Zero(), kAtRest, kTypical},
+        Stack{"HeavyOnLight", {0.2, 2, 20}, Vec3::Zero(), kAtRest, kTypical},
+        Stack{"AllLight", {0.2, 0.2, 0.2}, Vec3::Zero(), kAtRest, kTypical},
+        Stack{"AllHeavy", {20, 20, 20}, Vec3::Zero(), kAtRest, kTypical},
+        Stack{"EqualOffCentre", {2, 2, 2}, kOff, kDrift, kTypical},
+        Stack{"LightOnHeavyOffCentre", {20, 2, 0.2}, kOff, kDrift, kTypical},
+        Stack{"HeavyOnLightOffCentre", {0.2, 2, 20}, kOff, kDrift, kTypical},
+        Stack{"AllLightOffCentre", {0.2, 0.2, 0.2}, kOff, kDrift, kTypical},
         // A millimetre higher: a box of 0.2 kg under 8 kg must not slip out for that.
-        Stack{"AllLightHigher", {0.2, 0.2, 0.2}, kOff + 0.001 * Vec3::UnitY(), kDrift, kLight},
-        Stack{"AllHeavyOffCentre", {20, 20, 20}, kOff, kDrift, kSolid},
-        Stack{"AllHeavyOnTheEdge", {20, 20, 20}, {0.3, 0, 0}, kAtRest, kSolid},
-        Stack{"EqualSideways", {2, 2, 2}, Vec3::Zero(), {2.0, 0, 0}, kSideways}),
+        Stack{"AllLightHigher", {0.2, 0.2, 0.2}, kOff + 0.001 * Vec3::UnitY(), kDrift, kTypical},
+        Stack{"AllHeavyOffCentre", {20, 20, 20}, kOff, kDrift, kTypical},
+        Stack{"AllHeavyOnTheEdge", {20, 20, 20}, {0.3, 0, 0}, kAtRest, kTypical},
+        Stack{"EqualSideways", {2, 2, 2}, Vec3::Zero(), {2.0, 0, 0}, kLostCorner}),
     [](const auto& stack) { return stack.param.name; });
 
 // Struck on the edge by a lattice of 8 kg, boxes of 0.2 kg topple, and how is chaotic (the worst
