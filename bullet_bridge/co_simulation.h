@@ -17,7 +17,9 @@
 #include "core/model/physical_model.h"
 #include "core/model/surface_model.h"
 
+class btCollisionObject;
 class btDiscreteDynamicsWorld;
+class btRigidBody;
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -91,6 +93,7 @@ struct PieceView {
   std::size_t id = 0;  // counts up over the whole simulation; never used again
   std::size_t object = 0;
   bool flexible = false;
+  btRigidBody* body = nullptr;  // stands for it in the world, in either representation
   RigidMotion motion;
   std::vector<std::int32_t> points;  // of the object, ascending
 };
@@ -144,6 +147,14 @@ class CoSimulation {
   // Change the wind between steps; its animation goes by the simulation's time. Throws InputError.
   void set_air(std::optional<Air> air);
   const std::optional<Air>& air() const;
+
+  // An impulse, N s, at a place of the object, m, in either representation: at once on a rigid
+  // piece, throughout the next tick on the points around the place of a flexible one, whose body
+  // would spread it over all of them. The piece that is nearest gets it; debris takes none.
+  void apply_impulse(std::size_t object, const Vec3& impulse, const Vec3& at);
+
+  // The object whose piece a body stands for, such as one that a ray hit.
+  std::optional<std::size_t> object_of(const btCollisionObject& body) const;
 
   // The object as it is now: positions, velocities, breaks. Can be edited, glued and added again.
   PhysicalModel model(std::size_t object) const;
