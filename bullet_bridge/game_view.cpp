@@ -78,7 +78,8 @@ void CoSimulation::Impl::take_joints(double dt) {
     for (PointLoad load : spread(lattice_, piece->points, impulse, dt)) {
       loads_.push_back({load.point, -load.force});
     }
-    move_rigidly(lattice_, piece->points, impulse, dt);
+    // Bullet's joints count on Bullet's step, which falls g dt^2 / 2 farther than the lattice did.
+    move_rigidly(lattice_, piece->points, impulse, dt, 0.5 * dt * dt * environment_.gravity);
   }
 }
 

@@ -24,7 +24,7 @@ void push_rigidly(Lattice& lattice, std::span<const std::int32_t> points, const 
 }
 
 void move_rigidly(Lattice& lattice, std::span<const std::int32_t> points, const Impulse& impulse,
-                  double tick) {
+                  double tick, const Vec3& shift) {
   const RigidChange change = rigid_change(lattice, points, impulse);
   const Vec3 turn = change.angular_velocity * tick;
   const Mat3 turned = Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()).toRotationMatrix();
@@ -32,7 +32,7 @@ void move_rigidly(Lattice& lattice, std::span<const std::int32_t> points, const 
     PointMotion& point = lattice.motion[p];
     point.velocity += change.at(point.position);
     point.position =
-        change.centre + change.velocity * tick + turned * (point.position - change.centre);
+        change.centre + shift + change.velocity * tick + turned * (point.position - change.centre);
   }
 }
 

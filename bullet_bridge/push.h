@@ -30,9 +30,9 @@ RigidChange rigid_change(const Lattice& lattice, std::span<const std::int32_t> p
 // Gives it to the velocities of all points that no pin holds.
 void push_rigidly(Lattice& lattice, std::span<const std::int32_t> points, const Impulse& impulse);
 
-// The same, and moves them as far as a body moves by that in a tick, s.
+// The same, and moves them as far as a body moves by that in a tick, s, and by `shift`, m.
 void move_rigidly(Lattice& lattice, std::span<const std::int32_t> points, const Impulse& impulse,
-                  double tick);
+                  double tick, const Vec3& shift);
 
 // A force on a point throughout a tick.
 struct PointLoad {
