@@ -148,6 +148,10 @@ std::optional<std::size_t> CoSimulation::object_of(const btCollisionObject& body
 }
 
 void CoSimulation::apply_impulse(std::size_t object, const Vec3& impulse, const Vec3& at) {
+  if (object >= object_count() || !impulse.allFinite() || !at.allFinite()) {
+    throw InputError({"impulse", "its object is missing, or it or its place is not finite",
+                      "name an object that was added, and finite numbers"});
+  }
   impl_->apply_impulse(object, impulse, at);
 }
 

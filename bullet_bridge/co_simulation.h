@@ -150,7 +150,8 @@ class CoSimulation {
 
   // An impulse, N s, at a place of the object, m, in either representation: at once on a rigid
   // piece, throughout the next tick on the points around the place of a flexible one, whose body
-  // would spread it over all of them. The piece that is nearest gets it; debris takes none.
+  // would spread it over all of them. The piece that is nearest gets it; debris takes none. Throws
+  // InputError for an object that is missing, and for infinities and NaN.
   void apply_impulse(std::size_t object, const Vec3& impulse, const Vec3& at);
 
   // The object whose piece a body stands for, such as one that a ray hit.

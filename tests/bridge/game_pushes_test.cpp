@@ -116,6 +116,14 @@ TEST_P(Push, AtAPlaceGivesItsMomentum) {
             0.02 * at.cross(small).norm());
 }
 
+TEST_P(Push, AtAPlaceIsRefusedIfItIsNone) {
+  Scene scene(GetParam());
+  const Vec3 nowhere(std::nan(""), 0.0, 0.0);
+  EXPECT_THROW(scene.simulation.apply_impulse(1, kImpulse, Vec3::Zero()), InputError);
+  EXPECT_THROW(scene.simulation.apply_impulse(0, kImpulse, nowhere), InputError);
+  EXPECT_THROW(scene.simulation.apply_impulse(0, nowhere, Vec3::Zero()), InputError);
+}
+
 TEST_P(Push, GivesAMotionStateItsPose) {
   Scene scene(GetParam());
   btDefaultMotionState state;
