@@ -320,7 +320,10 @@ void CoSimulation::Impl::make_stiffest_implicit(double dt) {
 
 void CoSimulation::Impl::step_lattices(double dt) {
   const std::vector<Piece*> flexible = flexible_pieces();
-  if (flexible.empty()) return contacts_.forget();
+  if (flexible.empty()) {
+    loads_.clear();
+    return contacts_.forget();
+  }
   const Surroundings surroundings = surroundings_of(flexible, dt);
   refresh_roles(surroundings.carried);
   std::vector<CarriedPiece> carried;

@@ -120,16 +120,19 @@ struct Counters {
 // bodies after it broke.
 //
 // Contract. Limber owns the points of its objects and the proxies it adds; Bullet owns every other
-// body. Within a tick: (1) before the solver runs, proxies that are about to be loaded become
-// lattices, and all lattices are integrated together with the bodies they may touch; momentum is
-// exchanged in equal and opposite amounts; (2) after the solver, contact impulses on proxies are
-// read; (3) after bodies moved, poses are corrected, pieces are split, calmed pieces become bodies.
+// body. A piece has one body in the world for as long as it exists, whichever its representation:
+// what the game's queries hit and what it pushes, moves and joins (docs/bridge.md). Within a tick:
+// (1) before the solver runs, proxies that are about to be loaded become lattices, and all lattices
+// are integrated together with the bodies they may touch; momentum is exchanged in equal and
+// opposite amounts; (2) after the solver, impulses of contacts on proxies, and of the game's
+// constraints on lattices, are read; (3) after bodies moved, poses are corrected, pieces are split,
+// calmed pieces become bodies.
 // Momentum, angular momentum and centre of mass of a piece are the same before and after every
 // change of representation.
 class CoSimulation {
  public:
   // The world must outlive this; it is left as it was found when this is destroyed (but for the
-  // proxies, which go).
+  // bodies of pieces, which go: remove the game's constraints on them before, as with any body).
   // Throws InputError for settings out of range.
   explicit CoSimulation(btDiscreteDynamicsWorld& world, const CoSimulationSettings& settings = {});
   ~CoSimulation();

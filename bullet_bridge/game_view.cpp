@@ -47,6 +47,10 @@ void CoSimulation::Impl::gather_loads(double dt) {
     const std::vector<PointLoad> loads = spread(lattice_, push.points, push.impulse, dt);
     loads_.insert(loads_.end(), loads.begin(), loads.end());
   }
+  // What became rigid since then is strained by nothing.
+  std::erase_if(loads_, [&](const PointLoad& load) {
+    return lattice_.role[load.point] != PointRole::kDynamic;
+  });
   contacts_.bear(std::exchange(loads_, {}));
 }
 

@@ -134,7 +134,7 @@ void LatticeBody::show(btDiscreteDynamicsWorld& world, const Lattice& lattice,
   }
   body_->follow(frame);
   body_->bear_joints(joints);
-  world.updateSingleAabb(body_.get());
+  if (body_->isInWorld()) world.updateSingleAabb(body_.get());  // the game may have taken it out
   note_body();
   // Bullet gives their state only to bodies that it moves.
   if (!joints && body_->getMotionState()) body_->getMotionState()->setWorldTransform(pose_);
