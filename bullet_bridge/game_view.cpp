@@ -88,11 +88,14 @@ void CoSimulation::Impl::take_joints(double dt) {
 }
 
 std::vector<std::int32_t> CoSimulation::Impl::points_at_joints(const Piece& piece) const {
+  // The lattice has gone through the tick, the body has not moved yet.
+  const RigidMotion motion = rigid_motion(lattice_.motion, lattice_.mass, piece.points);
   std::vector<std::int32_t> points;
   for (btTypedConstraint* joint : joints_of(world_, piece.body())) {
     if (!joint->isEnabled()) continue;
     const Vec3 place = from_bullet(place_of_joint(*joint, piece.body()));
-    const std::vector<std::int32_t> near = points_around(lattice_, piece.points, place);
+    const std::vector<std::int32_t> near =
+        points_around(lattice_, piece.points, place + tick_ * motion.velocity_at(place));
     points.insert(points.end(), near.begin(), near.end());
   }
   std::sort(points.begin(), points.end());

@@ -169,6 +169,28 @@ TEST(Query, LatticeLeavesBulletNoContactToSolve) {
   EXPECT_GT(box.getWorldTransform().getOrigin().x(), 0.2);  // the lattice pushed it aside
 }
 
+// Bullet merges, and wakes, islands whose boxes overlap; that of a lattice is none of them.
+TEST(Query, LatticeLetsWhatLiesInItsBoxSleep) {
+  World world;
+  world.add_ground();
+  // An arch over the sleeper: its box holds it, its material does not.
+  PhysicalModel arch = make_block({.cells = {10, 1, 1}, .modulus = 1e7}, {0.0, 0.45, 0.0});
+  for (PointId p : ids_of(arch.points)) {
+    Vec3& x = arch.geometry.points[p];
+    x.y() += 0.2 - 2.0 * x.x() * x.x();
+    arch.points[p].pinned = std::abs(x.x()) > 0.49;
+  }
+  CoSimulation simulation(*world);
+  simulation.add(arch);
+  btRigidBody& box = world.add_box({0.1, 0.1, 0.1}, 1.0, {0.0, 0.1, 0.0});
+  world.run(4.0, kTick);
+  EXPECT_TRUE(simulation.pieces().at(0).flexible);
+  EXPECT_FALSE(box.isActive());
+  btVector3 low, high;
+  simulation.pieces().at(0).body->getAabb(low, high);
+  EXPECT_LT(low.y(), box.getWorldTransform().getOrigin().y() + btScalar(0.1));
+}
+
 struct Lines : btIDebugDraw {
   std::vector<std::pair<Vec3, Vec3>> lines;
   void drawLine(const btVector3& a, const btVector3& b, const btVector3&) override {
