@@ -13,7 +13,8 @@
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
-void CoSimulation::Impl::after_solve(double) {
+void CoSimulation::Impl::after_solve(double dt) {
+  if (!failure_) take_joints(dt);
   for (const auto& piece : pieces_) {
     if (piece->proxy) piece->proxy->impulse = 0.0;
   }
@@ -35,9 +36,9 @@ void CoSimulation::Impl::after_move(double dt) {
   if (failure_) return;
   if (stepped_lattice_) contacts_.correct_poses(dt);
   fly_free_proxies(dt);
-  thawed_.clear();
   time_ += dt;
   if (stepped_lattice_) split_broken_pieces();
+  show_lattices();
   name_pieces_of_breaks();
   count_time(dt);  // before freezing: a piece that calms now was a lattice for the whole tick
   if (stepped_lattice_) freeze_calm_pieces(dt);
@@ -48,7 +49,7 @@ void CoSimulation::Impl::fly_free_proxies(double dt) {
   for (const auto& piece : pieces_) {
     if (!piece->proxy || piece->proxy->impulse > 0.0) continue;
     btRigidBody& body = piece->proxy->body();
-    if (!body.isActive() || body.getNumConstraintRefs() > 0) continue;
+    if (!body.isActive() || jointed(*piece)) continue;
     if (stepped_lattice_ && contacts_.touched(body)) continue;
     piece->proxy->fly(dt);
   }
@@ -128,13 +129,19 @@ void CoSimulation::Impl::split_broken_pieces() {
 void CoSimulation::Impl::split(const Piece& piece, std::vector<std::vector<std::int32_t>> groups) {
   SplitRecord record{.time = time_, .object = piece.object, .piece = piece.id};
   const Vec3 middle = rigid_motion(lattice_.motion, lattice_.mass, piece.points).centre;
-  for (std::vector<std::int32_t>& points : groups) {
+  const std::optional<std::size_t> heir = heir_among(piece, groups);
+  if (!heir) keep_for_joints(piece.seen->shared_body());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    std::vector<std::int32_t>& points = groups[i];
     if (becomes_debris(points)) {
       turn_to_debris(points, middle);
       record.particles += points.size();
     } else {
       Piece& part = add_piece(piece.object, std::move(points));
       part.touched = piece.touched;
+      part.seen = std::make_unique<LatticeBody>(
+          world_, lattice_, boundary_, part.points,
+          heir == i ? piece.seen->shared_body() : std::shared_ptr<PieceBody>());
       record.parts.push_back(part.id);
     }
   }
@@ -211,7 +218,9 @@ void CoSimulation::Impl::note_carried_load(Piece& piece) const {
 }
 
 void CoSimulation::Impl::freeze_piece(Piece& piece, const std::string& cause, Numbers numbers) {
-  const HandOver books = freeze(world_, lattice_, piece.points, piece.proxy);
+  const HandOver books = freeze(world_, lattice_, piece.points, piece.proxy,
+                                piece.seen ? piece.seen->shared_body() : nullptr);
+  piece.seen.reset();
   piece_of_[&piece.proxy->body()] = &piece;
   piece.stored_J = books.elastic_J;
   counters_.stored_J += piece.stored_J;

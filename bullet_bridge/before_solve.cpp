@@ -30,6 +30,10 @@ void CoSimulation::Impl::before_solve(double dt) {
   stepped_lattice_ = false;
   broken_in_tick_ = 0;
   break_points_.clear();
+  tick_ = dt;
+  thawed_in_tick_ = false;
+  jointed_ = jointed_bodies(world_);
+  for (Piece* piece : flexible_pieces()) take_changes_of_game(*piece, dt);
   for (const auto& piece : pieces_) {
     if (piece->proxy) piece->proxy->remember();
   }
@@ -41,6 +45,7 @@ void CoSimulation::Impl::before_solve(double dt) {
     }
     blow_on_proxies(dt);
     step_lattices(dt);
+    show_velocities(dt);
   } catch (const SimulationError& error) {
     failure_ = error.diagnostic;
   }
@@ -55,6 +60,7 @@ void CoSimulation::Impl::thaw_what_will_be_hit(double dt) {
     const auto* a = static_cast<const btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject);
     const auto* b = static_cast<const btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject);
     if (!a->hasContactResponse() || !b->hasContactResponse()) continue;
+    if (stands_for_lattice(*a) || stands_for_lattice(*b)) continue;
     const auto piece_a = piece_of_.find(a), piece_b = piece_of_.find(b);
     if (piece_a != piece_of_.end()) consider_touch(*piece_a->second, *b, dt);
     if (piece_b != piece_of_.end()) consider_touch(*piece_b->second, *a, dt);
@@ -184,16 +190,16 @@ void CoSimulation::Impl::thaw_piece(Piece& piece, const std::string& cause, Numb
   piece.calm_ticks = 0;
   piece.touched = false;
   set_role(piece, PointRole::kDynamic);
-  // The body leaves the world when bodies may be removed; until then nothing collides with it.
-  btRigidBody& body = piece.proxy->body();
-  body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE);
-  piece_of_.erase(&body);
-  thawed_.push_back(std::move(piece.proxy));
+  piece_of_.erase(&piece.proxy->body());
+  piece.seen =
+      std::make_unique<LatticeBody>(lattice_, boundary_, piece.points, std::move(piece.proxy));
+  thawed_in_tick_ = true;
+  take_changes_of_game(piece, tick_);  // forces that Bullet has not given it yet
 }
 
 // Contacts of bodies that are lattices now, and of hulls that may pass.
 void CoSimulation::Impl::clear_unwanted_manifolds() {
-  if (thawed_.empty() && passing_.empty()) return;
+  if (!thawed_in_tick_ && passing_.empty()) return;
   const auto may_pass = [&](const btCollisionObject* a, const btCollisionObject* b) {
     return std::any_of(passing_.begin(), passing_.end(), [&](const auto& pair) {
       return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
@@ -314,7 +320,10 @@ void CoSimulation::Impl::make_stiffest_implicit(double dt) {
 
 void CoSimulation::Impl::step_lattices(double dt) {
   const std::vector<Piece*> flexible = flexible_pieces();
-  if (flexible.empty()) return contacts_.forget();
+  if (flexible.empty()) {
+    loads_.clear();
+    return contacts_.forget();
+  }
   const Surroundings surroundings = surroundings_of(flexible, dt);
   refresh_roles(surroundings.carried);
   std::vector<CarriedPiece> carried;
@@ -322,6 +331,7 @@ void CoSimulation::Impl::step_lattices(double dt) {
     carried.push_back({&piece->proxy->body(), piece->points, piece->proxy->local()});
   }
   contacts_.begin_tick(world_, boundary_, surroundings.bodies, carried, dt);
+  gather_loads(dt);
   const int substeps = substeps_for(dt);
   environment_.gravity = from_bullet(world_.getGravity());
   time_operator_.set_time(time_);

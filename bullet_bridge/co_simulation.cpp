@@ -68,7 +68,11 @@ void CoSimulation::Impl::start(Piece& piece) {
   const bool quiet = !piece.pinned && calm(piece.strength, settings_.switching, seen);
   const bool rigid =
       settings_.representation == Representation::kAlwaysRigid || (switching() && quiet);
-  if (rigid) freeze_piece(piece, "start", numbers_of(piece, seen));
+  if (rigid) {
+    freeze_piece(piece, "start", numbers_of(piece, seen));
+  } else {
+    piece.seen = std::make_unique<LatticeBody>(world_, lattice_, boundary_, piece.points);
+  }
 }
 
 void CoSimulation::Impl::sync_points() const {
@@ -127,12 +131,28 @@ std::vector<PieceView> CoSimulation::pieces() const {
     view.id = piece->id;
     view.object = piece->object;
     view.flexible = piece->flexible();
+    view.body = &piece->body();
     view.motion = rigid_motion(impl_->lattice_.motion, impl_->lattice_.mass, piece->points);
     const std::int32_t first = impl_->lattice_.objects[piece->object].points.begin;
     for (std::int32_t p : piece->points) view.points.push_back(p - first);
     views.push_back(std::move(view));
   }
   return views;
+}
+
+std::optional<std::size_t> CoSimulation::object_of(const btCollisionObject& body) const {
+  for (const auto& piece : impl_->pieces_) {
+    if (&piece->body() == &body) return piece->object;
+  }
+  return {};
+}
+
+void CoSimulation::apply_impulse(std::size_t object, const Vec3& impulse, const Vec3& at) {
+  if (object >= object_count() || !impulse.allFinite() || !at.allFinite()) {
+    throw InputError({"impulse", "its object is missing, or it or its place is not finite",
+                      "name an object that was added, and finite numbers"});
+  }
+  impl_->apply_impulse(object, impulse, at);
 }
 
 double CoSimulation::debris_mass(std::size_t object) const {

@@ -17,7 +17,9 @@
 #include "core/model/physical_model.h"
 #include "core/model/surface_model.h"
 
+class btCollisionObject;
 class btDiscreteDynamicsWorld;
+class btRigidBody;
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -91,6 +93,7 @@ struct PieceView {
   std::size_t id = 0;  // counts up over the whole simulation; never used again
   std::size_t object = 0;
   bool flexible = false;
+  btRigidBody* body = nullptr;  // stands for it in the world, in either representation
   RigidMotion motion;
   std::vector<std::int32_t> points;  // of the object, ascending
 };
@@ -117,16 +120,19 @@ struct Counters {
 // bodies after it broke.
 //
 // Contract. Limber owns the points of its objects and the proxies it adds; Bullet owns every other
-// body. Within a tick: (1) before the solver runs, proxies that are about to be loaded become
-// lattices, and all lattices are integrated together with the bodies they may touch; momentum is
-// exchanged in equal and opposite amounts; (2) after the solver, contact impulses on proxies are
-// read; (3) after bodies moved, poses are corrected, pieces are split, calmed pieces become bodies.
+// body. A piece has one body in the world for as long as it exists, whichever its representation:
+// what the game's queries hit and what it pushes, moves and joins (docs/bridge.md). Within a tick:
+// (1) before the solver runs, proxies that are about to be loaded become lattices, and all lattices
+// are integrated together with the bodies they may touch; momentum is exchanged in equal and
+// opposite amounts; (2) after the solver, impulses of contacts on proxies, and of the game's
+// constraints on lattices, are read; (3) after bodies moved, poses are corrected, pieces are split,
+// calmed pieces become bodies.
 // Momentum, angular momentum and centre of mass of a piece are the same before and after every
 // change of representation.
 class CoSimulation {
  public:
   // The world must outlive this; it is left as it was found when this is destroyed (but for the
-  // proxies, which go).
+  // bodies of pieces, which go: remove the game's constraints on them before, as with any body).
   // Throws InputError for settings out of range.
   explicit CoSimulation(btDiscreteDynamicsWorld& world, const CoSimulationSettings& settings = {});
   ~CoSimulation();
@@ -144,6 +150,15 @@ class CoSimulation {
   // Change the wind between steps; its animation goes by the simulation's time. Throws InputError.
   void set_air(std::optional<Air> air);
   const std::optional<Air>& air() const;
+
+  // An impulse, N s, at a place of the object, m, in either representation: at once on a rigid
+  // piece, throughout the next tick on the points around the place of a flexible one, whose body
+  // would spread it over all of them. The piece that is nearest gets it; debris takes none. Throws
+  // InputError for an object that is missing, and for infinities and NaN.
+  void apply_impulse(std::size_t object, const Vec3& impulse, const Vec3& at);
+
+  // The object whose piece a body stands for, such as one that a ray hit.
+  std::optional<std::size_t> object_of(const btCollisionObject& body) const;
 
   // The object as it is now: positions, velocities, breaks. Can be edited, glued and added again.
   PhysicalModel model(std::size_t object) const;

@@ -4,13 +4,16 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "bullet_bridge/co_simulation.h"
 #include "bullet_bridge/contact_solver.h"
 #include "bullet_bridge/debris.h"
+#include "bullet_bridge/joints.h"
 #include "bullet_bridge/piece.h"
+#include "bullet_bridge/push.h"
 #include "bullet_bridge/shapes/shape_cache.h"
 #include "bullet_bridge/solver_decorator.h"
 #include "bullet_bridge/touch_prediction.h"
@@ -23,7 +26,7 @@ inline namespace LIMBER_BULLET_PRECISION {
 using Numbers = std::vector<std::pair<std::string, double>>;
 
 // The state behind CoSimulation. Its stages stand in before_solve.cpp and after_move.cpp, in the
-// order in which a tick runs them.
+// order in which a tick runs them; those that deal with the game's side of it in game_view.cpp.
 class CoSimulation::Impl : public TickHooks {
  public:
   Impl(btDiscreteDynamicsWorld& world, const CoSimulationSettings& settings)
@@ -37,6 +40,7 @@ class CoSimulation::Impl : public TickHooks {
   void after_move(double dt) override;
 
   std::size_t add(PhysicalModel model, Integration integration);
+  void apply_impulse(std::size_t object, const Vec3& impulse, const Vec3& at);
   void sync_points() const;
   std::vector<std::int32_t> points_of_object(std::size_t object) const;
 
@@ -54,9 +58,18 @@ class CoSimulation::Impl : public TickHooks {
   std::vector<std::unique_ptr<Piece>> pieces_;                     // ascending by id
   std::unordered_map<const btCollisionObject*, Piece*> piece_of_;  // look-ups only
   std::vector<std::pair<const btCollisionObject*, const btCollisionObject*>> passing_;
-  std::vector<std::unique_ptr<RigidProxy>> thawed_;  // to be removed when bodies have moved
+  bool thawed_in_tick_ = false;
+  std::unordered_set<const btRigidBody*> jointed_;   // of Bullet's world, at the tick's start
+  std::vector<std::shared_ptr<PieceBody>> orphans_;  // joints still name them
+  struct Push {
+    std::vector<std::int32_t> points;
+    Impulse impulse;  // about their centre of mass
+  };
+  std::vector<Push> pushes_;      // of the game, for the next tick
+  std::vector<PointLoad> loads_;  // of joints, for the next tick
   std::size_t next_piece_ = 0;
   double time_ = 0.0;
+  double tick_ = 0.0;  // s, of the present tick
   bool roles_stale_ = true;
   bool stepped_lattice_ = false;
   std::size_t broken_in_tick_ = 0;
@@ -74,10 +87,14 @@ class CoSimulation::Impl : public TickHooks {
   void thaw_what_lattices_hit(double dt);
   void blow_on_proxies(double dt);
   Vec3 blow_on(const Piece& piece, double dt);
+  void gather_loads(double dt);
   void step_lattices(double dt);
+  void show_velocities(double dt);
+  void take_joints(double dt);
   void fly_free_proxies(double dt);
   void split_broken_pieces();
   void split(const Piece& piece, std::vector<std::vector<std::int32_t>> groups);
+  void show_lattices();
   void name_pieces_of_breaks();
   void freeze_calm_pieces(double dt);
   void note_carried_load(Piece& piece) const;
@@ -114,6 +131,15 @@ class CoSimulation::Impl : public TickHooks {
                       const std::optional<Vec3>& born_in = {});
   Piece& add_piece(std::size_t object, std::vector<std::int32_t> points);
   void start(Piece& piece);
+  void take_changes_of_game(Piece& piece, double dt);
+  bool jointed(const Piece& piece) const;
+  std::vector<std::int32_t> points_at_joints(const Piece& piece) const;
+  std::optional<std::size_t> heir_among(const Piece& piece,
+                                        const std::vector<std::vector<std::int32_t>>& groups);
+  std::size_t group_at(const std::vector<std::vector<std::int32_t>>& groups,
+                       const Vec3& place) const;
+  void disable(btTypedConstraint& joint, std::size_t object);
+  void keep_for_joints(std::shared_ptr<PieceBody> body);
   void judge_impulse(Piece& piece, double dt);
   Calmness look_at(const Piece& piece) const;
   Numbers numbers_of(const Piece& piece, const Calmness& seen) const;

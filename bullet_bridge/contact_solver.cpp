@@ -69,6 +69,7 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTra
 
 void ContactSolver::add_forces(Lattice& lattice, double dt) {
   if (substep_++ % kListInterval == 0) list_pairs(lattice, dt);
+  for (const PointLoad& load : loads_) lattice.force[load.point] += load.force;
   for (Obstacle& obstacle : obstacles_) {
     obstacle.press(lattice, surface_, shadows_[obstacle.shadow()], dt);
   }

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bullet_bridge/neighbourhood.h"
 #include "bullet_bridge/obstacle.h"
+#include "bullet_bridge/push.h"
 #include "bullet_bridge/shapes/shape_cache.h"
 #include "bullet_bridge/support_contacts.h"
 #include "core/operators/boundary_tracker.h"
@@ -44,6 +46,9 @@ class ContactSolver : public SubstepCoupling {
     shadows_ = {};
   }
 
+  // Forces besides, for this tick. After begin_tick().
+  void bear(std::vector<PointLoad> loads) { loads_ = std::move(loads); }
+
   void add_forces(Lattice& lattice, double dt) override;
   void advance(Lattice& lattice, double dt) override;
 
@@ -66,6 +71,7 @@ class ContactSolver : public SubstepCoupling {
   ShadowSet shadows_;
   std::vector<SupportGroup> supports_;
   std::vector<Obstacle> obstacles_;
+  std::vector<PointLoad> loads_;
   std::vector<CarriedPiece> carried_;
   std::vector<int> carried_shadow_;
   std::vector<bool> supported_;  // by shadow: has support contacts, so that Bullet adds its gravity

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bullet_bridge/conversions.h"
+#include "bullet_bridge/lattice_shape.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -24,8 +25,8 @@ struct FirstHit : btCollisionWorld::ClosestRayResultCallback {
 
   bool needsCollision(btBroadphaseProxy* proxy) const override {
     const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
-    return object->hasContactResponse() && !ignored.contains(object) &&
-           ClosestRayResultCallback::needsCollision(proxy);
+    return object->hasContactResponse() && !stands_for_lattice(*object) &&
+           !ignored.contains(object) && ClosestRayResultCallback::needsCollision(proxy);
   }
 
   const std::unordered_set<const btCollisionObject*>& ignored;

@@ -58,7 +58,8 @@ void close_books(HandOver& books, bool regularised) {
 }  // namespace
 
 HandOver freeze(btDiscreteDynamicsWorld& world, const Lattice& lattice,
-                std::span<const std::int32_t> points, std::unique_ptr<RigidProxy>& proxy) {
+                std::span<const std::int32_t> points, std::unique_ptr<RigidProxy>& proxy,
+                std::shared_ptr<PieceBody> body) {
   HandOver books;
   const RigidMotion before = rigid_motion(lattice.motion, lattice.mass, points);
   books.kinetic_before_J = kinetic_energy(lattice.motion, lattice.mass, points);
@@ -68,7 +69,7 @@ HandOver freeze(btDiscreteDynamicsWorld& world, const Lattice& lattice,
         lattice.motion[p].velocity - before.velocity_at(lattice.motion[p].position);
     books.discarded_J += 0.5 * lattice.mass[p] * vibration.squaredNorm();
   }
-  proxy = std::make_unique<RigidProxy>(world, lattice, points);
+  proxy = std::make_unique<RigidProxy>(world, lattice, points, std::move(body));
   const RigidMotion after = proxy->motion();
   books.kinetic_after_J = after.kinetic_energy();
   note_defects(books, before, after, scale_of(lattice, points, before.centre));

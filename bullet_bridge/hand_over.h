@@ -28,8 +28,10 @@ struct HandOver {
 
 // A lattice becomes a body with its P, L and centre of mass. The deformed shape stays, and with it
 // the elastic energy; the vibration's kinetic energy is lost. Points keep their place until thaw().
+// `body`: what has stood for the lattice.
 HandOver freeze(btDiscreteDynamicsWorld& world, const Lattice& lattice,
-                std::span<const std::int32_t> points, std::unique_ptr<RigidProxy>& proxy);
+                std::span<const std::int32_t> points, std::unique_ptr<RigidProxy>& proxy,
+                std::shared_ptr<PieceBody> body = {});
 
 // A body becomes a lattice again: x_i = X + R r_i, v_i = V + omega x R r_i, with V and omega such
 // that the points have the body's P and L to rounding (Bullet's own numbers may be floats). The

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bullet_bridge/conversions.h"
+#include "bullet_bridge/lattice_shape.h"
 #include "bullet_bridge/shadow_body.h"
 #include "bullet_bridge/shapes/contact_shape.h"
 #include "core/model/bounds.h"
@@ -25,7 +26,8 @@ struct Collector : btBroadphaseAabbCallback {
     const int type = object->getInternalType();
     const bool body =
         type == btCollisionObject::CO_RIGID_BODY || type == btCollisionObject::CO_COLLISION_OBJECT;
-    if (body && object->hasContactResponse()) found.push_back(object);
+    if (body && object->hasContactResponse() && !stands_for_lattice(*object))
+      found.push_back(object);
     return true;
   }
 };

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_bridge/lattice_body.h"
 #include "bullet_bridge/rigid_proxy.h"
 #include "bullet_bridge/switch_policy.h"
 
@@ -20,6 +21,7 @@ struct Piece {
   PieceStrength strength;
   double size = 0.0;                  // m, twice the distance of the farthest point
   std::unique_ptr<RigidProxy> proxy;  // null while flexible
+  std::unique_ptr<LatticeBody> seen;  // null while rigid
   double stored_J = 0.0;              // elastic energy, while rigid
   double carried_load = 0.0;          // N, of its contacts when it became rigid
   double sustained_load = 0.0;        // N, of its contacts since then, averaged over time
@@ -31,6 +33,7 @@ struct Piece {
   bool pinned = false;                // holds a pinned point, and stays flexible
 
   bool flexible() const { return proxy == nullptr; }
+  btRigidBody& body() const { return proxy ? proxy->body() : seen->body(); }
 };
 
 // Strength from the live springs. The wave speed comes from the lattice itself: for an isotropic

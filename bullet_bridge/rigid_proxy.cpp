@@ -1,9 +1,5 @@
 #include "bullet_bridge/rigid_proxy.h"
 
-#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
-#include <BulletDynamics/Dynamics/btRigidBody.h>
-
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "bullet_bridge/conversions.h"
@@ -12,11 +8,6 @@
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 namespace {
-
-// Bullet puts a body to sleep that stayed below these for two seconds; its defaults (0.8 m/s and
-// 1 rad/s) would stop a shard that is still sliding.
-constexpr double kSleepSpeed = 0.05;         // m/s
-constexpr double kSleepAngularSpeed = 0.25;  // rad/s
 
 bool whole(const Lattice& lattice, std::int32_t cell) {
   return lattice.breaking.cell_valid[cell] != 0;
@@ -81,28 +72,9 @@ std::vector<BodyFace> faces_of(const Lattice& lattice, std::span<const std::int3
 
 }  // namespace
 
-ProxyFrame proxy_frame(const RigidMotion& motion) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> principal(motion.inertia);
-  Mat3 axes = principal.eigenvectors();
-  if (axes.determinant() < 0.0) axes.col(2) = -axes.col(2);
-  ProxyFrame frame;
-  frame.mass = motion.mass;
-  frame.centre = motion.centre;
-  frame.orientation = Eigen::Quaterniond(axes).normalized();
-  // Points all in one place have no moment at all: they count as a tenth of a millimetre from their
-  // centre, of which the share below leaves a micrometre.
-  const double largest = std::max(principal.eigenvalues()[2], 1e-8 * motion.mass);
-  frame.moments = principal.eigenvalues().cwiseMax(kSmallestMomentShare * largest);
-  frame.regularised = frame.moments != principal.eigenvalues();
-  frame.velocity = motion.velocity;
-  frame.angular_velocity =
-      axes * (axes.transpose() * motion.angular_momentum).cwiseQuotient(frame.moments);
-  return frame;
-}
-
 RigidProxy::RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
-                       std::span<const std::int32_t> points)
-    : world_(world), written_basis_(btMatrix3x3::getIdentity()) {
+                       std::span<const std::int32_t> points, std::shared_ptr<PieceBody> body)
+    : written_basis_(btMatrix3x3::getIdentity()) {
   written_basis_[0][0] = 2;  // no rotation: nothing was written yet
   const ProxyFrame frame = proxy_frame(rigid_motion(lattice.motion, lattice.mass, points));
   const Mat3 to_local = frame.orientation.toRotationMatrix().transpose();
@@ -115,24 +87,10 @@ RigidProxy::RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
   moments_ = frame.moments;
   regularised_ = frame.regularised;
 
-  btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(frame.mass), nullptr,
-                                                &shape_.shape(), to_bullet(frame.moments));
-  const ObjectAttributes& attributes =
-      lattice.objects[lattice.point_object[points[0]]].authored.object;
-  info.m_friction = static_cast<btScalar>(attributes.friction);
-  info.m_restitution = static_cast<btScalar>(attributes.restitution);
-  info.m_linearSleepingThreshold = static_cast<btScalar>(kSleepSpeed);
-  info.m_angularSleepingThreshold = static_cast<btScalar>(kSleepAngularSpeed);
-  info.m_startWorldTransform = btTransform(to_bullet(frame.orientation), to_bullet(frame.centre));
-  body_ = std::make_unique<btRigidBody>(info);
-  body_->setFlags(0);  // gyroscopic torque is fly()'s business: Bullet's loses angular momentum
-  body_->setLinearVelocity(to_bullet(frame.velocity));
-  body_->setAngularVelocity(to_bullet(frame.angular_velocity));
-  world_.addRigidBody(body_.get());
+  body_ = body ? std::move(body) : make_piece_body(world, lattice, points);
+  body_->be_rigid(frame, shape_.shape());
   remember();
 }
-
-RigidProxy::~RigidProxy() { world_.removeRigidBody(body_.get()); }
 
 void RigidProxy::write_points(Lattice& lattice, std::span<const std::int32_t> points) const {
   const Vec3 centre = from_bullet(body_->getWorldTransform().getOrigin());

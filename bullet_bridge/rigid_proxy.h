@@ -8,44 +8,29 @@
 #include <span>
 #include <vector>
 
+#include "bullet_bridge/piece_body.h"
+#include "bullet_bridge/proxy_frame.h"
 #include "bullet_bridge/proxy_shape.h"
 #include "core/dynamics/lattice.h"
 #include "core/environment/rigid_flight.h"
 
 class btDiscreteDynamicsWorld;
-class btRigidBody;
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
-
-// Mass properties in the frame of the principal axes, from the deformed points of a piece.
-struct ProxyFrame {
-  double mass = 0.0;               // kg
-  Vec3 centre;                     // m, world
-  Eigen::Quaterniond orientation;  // principal axes to world
-  Vec3 moments;                    // kg m^2, about the principal axes, all > 0
-  Vec3 velocity;                   // P / M
-  Vec3 angular_velocity;           // I^-1 L
-  bool regularised = false;        // a moment was raised
-};
-
-// A piece whose points lie on a line has no moment about it (and no angular momentum there either,
-// so that L stays exact): Bullet gets this share of the largest moment instead of zero.
-inline constexpr double kSmallestMomentShare = 1e-4;
-
-ProxyFrame proxy_frame(const RigidMotion& motion);
 
 // The rigid body that stands for a piece in Bullet's world while nothing stresses it. The deformed
 // shape is kept: point i of the piece is at centre + R local[i].
 class RigidProxy {
  public:
+  // `body`: what has stood for the piece so far, if anything did.
   RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
-             std::span<const std::int32_t> points);
-  ~RigidProxy();
+             std::span<const std::int32_t> points, std::shared_ptr<PieceBody> body = {});
   RigidProxy(const RigidProxy&) = delete;
   RigidProxy& operator=(const RigidProxy&) = delete;
 
-  btRigidBody& body() const { return *body_; }
+  PieceBody& body() const { return *body_; }
+  std::shared_ptr<PieceBody> shared_body() const { return body_; }
   std::span<const Vec3> local() const { return local_; }
 
   // Puts the points where the body carries them: x = X + R r, v = V + omega x R r.
@@ -80,12 +65,11 @@ class RigidProxy {
  private:
   FlightState start_of_flight() const;
 
-  btDiscreteDynamicsWorld& world_;
   std::vector<Vec3> local_;                // shape (points)
   FlyingBody flying_;                      // with the faces that feel the air
   std::optional<FlightState> flight_end_;  // of this tick
   ProxyShape shape_;
-  std::unique_ptr<btRigidBody> body_;
+  std::shared_ptr<PieceBody> body_;
   double mass_ = 0.0;
   Vec3 moments_;
   bool regularised_ = false;

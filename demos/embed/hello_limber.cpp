@@ -5,9 +5,9 @@
 
 #include <cstdio>
 
-#include "bullet_bridge/co_simulation.h"  // Limber
-#include "core/modeller/box_lattice.h"    // Limber
-#include "core/modeller/material.h"       // Limber
+#include "bullet_bridge/co_simulation.h"   // Limber
+#include "core/modeller/box_lattice.h"     // Limber
+#include "core/modeller/material_table.h"  // Limber
 
 int main() {
   btStaticPlaneShape floor_shape(btVector3(0, 1, 0), 0);
@@ -26,17 +26,10 @@ int main() {
   world.addRigidBody(&kerb);
 
   limber::bullet::CoSimulation limber(world);  // Limber: takes part in every step from now on
-
-  limber::Material clay;         // Limber: what the beam is made of, in SI units
-  clay.density = 2000;           // kg/m^3
-  clay.youngs_modulus = 1.5e10;  // Pa
-  clay.strain_at_break = 1e-3;
-  clay.damping_ratio = 0.2;
-  clay.internal_damping = 30;  // 1/s
-  clay.softening = 1000;       // modulus / 1000; the same impact speed breaks it
-
-  limber.add(limber::with_material(  // Limber: 12 x 2 x 2 cells of 5 cm, 1 m above the floor
-      limber::box_lattice({12, 2, 2}, {0.05, 0.05, 0.05}, {-0.3, 1, -0.05}, "beam"), "beam", clay));
+  limber::Material brick = limber::material_named("brick").material;  // Limber
+  brick.softening = 1000;            // Limber: modulus / 1000; the same impact speed breaks it
+  limber.add(limber::with_material(  // Limber: 60 x 10 x 10 cm, 1 m above the floor
+      limber::box_lattice({12, 2, 2}, {0.05, 0.05, 0.05}, {-0.3, 1, 0}, ""), "beam", brick));
 
   for (int tick = 0; tick < 180; ++tick) {
     world.stepSimulation(btScalar(1) / 60, 1, btScalar(1) / 60);

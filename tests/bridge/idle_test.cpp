@@ -52,9 +52,11 @@ TEST(IdleBridge, ChangesNoBitOfATumblingPile) {
   EXPECT_NE(bits_of(plain), start);
 }
 
-// A lattice far away is stepped, but the pile is none of its business.
+// A lattice far away is stepped, but the pile is none of its business. (Bullet's tree finds pairs
+// in another order with one body more, whosever it is: this broadphase knows no such order.)
 TEST(IdleBridge, OfAFarLatticeChangesNoBitOfATumblingPile) {
-  World plain, bridged;
+  World plain(kGravity, SolverOwner::kCaller, std::make_unique<btSimpleBroadphase>());
+  World bridged(kGravity, SolverOwner::kCaller, std::make_unique<btSimpleBroadphase>());
   add_tumbling_pile(plain);
   add_tumbling_pile(bridged);
   CoSimulation simulation(*bridged, settings_for(Representation::kAlwaysFlexible));

@@ -23,8 +23,11 @@ enum class SolverOwner { kCaller, kWorld };
 // A Bullet world that owns what is in it. Bodies neither damp nor sleep unless a test wants it.
 class World {
  public:
-  explicit World(double gravity = kGravity, SolverOwner owner = SolverOwner::kCaller)
-      : world_(&dispatcher_, &broadphase_, owner == SolverOwner::kCaller ? &solver_ : nullptr,
+  explicit World(
+      double gravity = kGravity, SolverOwner owner = SolverOwner::kCaller,
+      std::unique_ptr<btBroadphaseInterface> broadphase = std::make_unique<btDbvtBroadphase>())
+      : broadphase_(std::move(broadphase)),
+        world_(&dispatcher_, broadphase_.get(), owner == SolverOwner::kCaller ? &solver_ : nullptr,
                &configuration_) {
     configuration_.setPlaneConvexMultipointIterations();
     configuration_.setConvexConvexMultipointIterations();
@@ -74,7 +77,7 @@ class World {
  private:
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
+  std::unique_ptr<btBroadphaseInterface> broadphase_;
   btSequentialImpulseConstraintSolver solver_;
   btDiscreteDynamicsWorld world_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
