@@ -414,47 +414,61 @@ double Obstacle::gain_of(const Lattice& lattice, const ShadowBody& body, const P
   return own + sharers_ * body.inverse_effective_mass(place.position(lattice), normal);
 }
 
+// What the last push did, if there was one.
+template <class Place>
+void Obstacle::settle(const Lattice& lattice, const ShadowBody& body, Pair<Place>& pair,
+                      double dt) const {
+  if (!pair.books.open) return;
+  const Vec3 now = slip_at(lattice, body, pair.pressed);
+  pair.books.settle(-now.dot(pair.normal));
+  pair.friction.settle(now - now.dot(pair.normal) * pair.normal, dt);
+}
+
+// The normal force, N, at pair.pressed along pair.normal.
+template <class Place>
+double Obstacle::bear(const Lattice& lattice, const ShadowBody& body, Pair<Place>& pair,
+                      const PenaltyContact& law, double depth, double dt) const {
+  PassiveContact& books = pair.books;
+  const Place& place = pair.pressed;
+  const double closing = -slip_at(lattice, body, place).dot(pair.normal);
+  const Vec3 after = place.velocity_after(lattice, dt);
+  const double foreseen = (body.velocity_at(place.position(lattice)) - after).dot(pair.normal);
+  const double without = books.closing_without(foreseen);
+  const bool implicit = is_implicit(lattice, place.lawgiver());
+  double most = books.largest_impulse(implicit ? closing : 0.5 * (closing + without));
+  if (pair.offset > 0.0) {
+    books.forgive(law.elastic_energy(books.mass, std::max(0.0, depth)));
+    most = std::max(most, books.mass * (kEaseSpeed + closing));
+  }
+  const double gain = gain_of(lattice, body, place, pair.normal) * dt;
+  const double wanted = bearing_force(law, books.mass, depth, -without, gain, dt);
+  const double press = std::min(wanted, most / dt);
+  books.give(press * dt, closing, foreseen - press * gain);
+  return press;
+}
+
 template <class Place>
 void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const Place& place,
                     const Penetration& contact, double dt) {
-  PassiveContact& books = pair.books;
-  const bool counted = books.open;
-  if (books.open) {
-    const Vec3 now = slip_at(lattice, body, pair.pressed);
-    books.settle(-now.dot(pair.normal));
-    pair.friction.settle(now - now.dot(pair.normal) * pair.normal, dt);
-  }
+  const bool counted = pair.books.open;  // among the sharers
+  settle(lattice, body, pair, dt);
   const double depth = eased(contact.depth, pair.offset, dt);
   if (depth <= 0.0 && pair.offset == 0.0) return;
   const Vec3 normal = at_rest_ ? contact.normal : Vec3(body.rotation * contact.normal);
-  books.share_mass(effective_mass(lattice, body, place, normal));
-  if (std::isinf(books.mass)) return;
-  const Vec3 slip = slip_at(lattice, body, place);
-  const double separation = slip.dot(normal);
-  PenaltyContact law = law_at(lattice, place.lawgiver(), parts_[pair.listed], dt);
-  if (!counted) law.deepest = kNoLimit;  // it is not among the sharers yet
-  const double foreseen =
-      (body.velocity_at(place.position(lattice)) - place.velocity_after(lattice, dt)).dot(normal);
-  const double without = books.closing_without(foreseen);
-  const bool foreseeable = !is_implicit(lattice, place.lawgiver());
-  const double after = foreseeable ? without : -separation;
-  double most = books.largest_impulse(0.5 * (after - separation));
-  if (pair.offset > 0.0) {
-    books.forgive(law.elastic_energy(books.mass, std::max(0.0, depth)));
-    most = std::max(most, books.mass * (kEaseSpeed - separation));
-  }
-  const double gain = gain_of(lattice, body, place, normal) * dt;
-  const double wanted = bearing_force(law, books.mass, depth, -without, gain, dt);
-  const double press = std::min(wanted, most / dt);
-  books.give(press * dt, -separation, foreseen - press * gain);
-  ++pushed_;
+  pair.books.share_mass(effective_mass(lattice, body, place, normal));
+  if (std::isinf(pair.books.mass)) return;
   pair.pressed = place;
   pair.normal = normal;
-  pair.yields =
-      depth > kLeastYielding && press < kBearingShare * law.elastic_force(books.mass, depth);
+  PenaltyContact law = law_at(lattice, place.lawgiver(), parts_[pair.listed], dt);
+  if (!counted) law.deepest = kNoLimit;
+  const double press = bear(lattice, body, pair, law, depth, dt);
+  ++pushed_;
+  const double elastic = law.elastic_force(pair.books.mass, depth);
+  pair.yields = depth > kLeastYielding && press < kBearingShare * elastic;
   if (press <= 0.0) return;
-  const Vec3 force = press * normal + pair.friction.pull(law, press, books.mass, normal,
-                                                         slip - separation * normal, dt);
+  const Vec3 slip = slip_at(lattice, body, place);
+  const Vec3 force = press * normal + pair.friction.pull(law, press, pair.books.mass, normal,
+                                                         slip - slip.dot(normal) * normal, dt);
   place.add_force(lattice, force);
   if (body.movable()) body.add_force(-force, place.position(lattice));
   pair.holds = true;

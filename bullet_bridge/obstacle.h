@@ -121,6 +121,11 @@ class Obstacle {
   double gain_of(const Lattice& lattice, const ShadowBody& body, const Place& place,
                  const Vec3& normal) const;
   template <class Place>
+  void settle(const Lattice& lattice, const ShadowBody& body, Pair<Place>& pair, double dt) const;
+  template <class Place>
+  double bear(const Lattice& lattice, const ShadowBody& body, Pair<Place>& pair,
+              const PenaltyContact& law, double depth, double dt) const;
+  template <class Place>
   void push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const Place& place,
             const Penetration& contact, double dt);
 

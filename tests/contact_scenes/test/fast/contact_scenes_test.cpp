@@ -36,8 +36,6 @@ std::string test_name(const Scene& scene) {
 // What contact does not do yet: docs/bridge.md has the figures. A scene that starts to meet its
 // demands has to leave this list.
 const std::set<std::string> kNotMetYet = {
-    "box of 0.0001 x its mass on a cushion",
-    "box of 0.01 x its mass on a cushion",
     "box of 1 x its mass on a cushion",
     "box of 100 x its mass on a cushion",
     "box of 10000 x its mass on a cushion",
@@ -46,29 +44,20 @@ const std::set<std::string> kNotMetYet = {
     "cushion on a box, 1 x its mass",
     "cushion on a box, 100 x its mass",
     "cushion on a box, 10000 x its mass",
-    "ball at 50 m/s, unbreakable sheet",
     "ball at 200 m/s, unbreakable sheet",
-    "ball at 10 m/s, free cube",
-    "ball at 50 m/s, free cube",
     "ball at 200 m/s, free cube",
     "cube in a vice, to 50 % of its size",
     "cube in a vice, to 10 % of its size",
     "block on a stack of three boxes",
-    "rigid capsule, point first, on a block",
     "rigid cylinder, end first, on a block",
-    "rope over a square beam",
-    "rod of 2 cm on a block with 10 cm cells",
-    "block on a triangle mesh",
-    "block on a scaled mesh",
-    "block on a heightfield",
     "block on a compound",
-    "block on a hull",
-    "block on a cylinder",
     "block on a cone",
     "block on a capsule",
 };
-// Angular momentum to 1.8e-6, where 1e-6 is asked for: what Bullet's numbers round away.
-const std::set<std::string> kNotMetInSingle = {"needle on a block at 20 m/s"};
+// Angular momentum to 1.4e-6, where 1e-6 is asked for: what Bullet's numbers round away. And a rope
+// that slides on at 0.09 m/s.
+const std::set<std::string> kNotMetInSingle = {"needle on a block at 20 m/s",
+                                               "rope over a square beam"};
 
 bool is_not_met_yet(const Scene& scene) {
   constexpr bool kSingle = sizeof(btScalar) == sizeof(float);
