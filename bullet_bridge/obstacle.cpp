@@ -418,7 +418,10 @@ double Obstacle::gain_of(const Lattice& lattice, const ShadowBody& body, const P
 template <class Place>
 void Obstacle::settle(const Lattice& lattice, const ShadowBody& body, Pair<Place>& pair,
                       double dt) const {
-  if (!pair.books.open) return;
+  if (!pair.books.open) {
+    pair.books.surprise = 0.0;  // that was longer ago
+    return;
+  }
   const Vec3 now = slip_at(lattice, body, pair.pressed);
   pair.books.settle(-now.dot(pair.normal));
   pair.friction.settle(now - now.dot(pair.normal) * pair.normal, dt);
