@@ -17,7 +17,10 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
+  # Without this sloppiness ccache would not keep what uses precompiled headers; by dependencies it
+  # need not preprocess each file first, a second each.
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env
+    CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1 "${CCACHE}")
 endif()
 
 # What every target of the project is compiled with; outside libraries are not touched.
@@ -26,9 +29,23 @@ target_compile_options(limber_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
   $<$<BOOL:${LIMBER_WERROR}>:-Werror>
   # Fused multiply-add would make results depend on the machine's instruction set.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # What ccache needs to see of precompiled headers.
+  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 if(LIMBER_SANITIZE)
   target_compile_options(limber_build_flags INTERFACE
     -fsanitize=${LIMBER_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(limber_build_flags INTERFACE -fsanitize=${LIMBER_SANITIZE})
 endif()
+
+# limber_precompile(TARGET HEADER ...): what nearly every file of a target includes, read once. Each
+# file still names what it needs: the build with -D LIMBER_PRECOMPILE=OFF says whether it does.
+option(LIMBER_PRECOMPILE "precompile the headers that nearly every file includes" ON)
+function(limber_precompile target)
+  if(NOT LIMBER_PRECOMPILE)
+    return()
+  endif()
+  target_precompile_headers(${target} PRIVATE
+    <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <numeric> <optional>
+    <span> <string> <unordered_map> <utility> <vector> <Eigen/Core> <Eigen/Geometry> ${ARGN})
+endfunction()

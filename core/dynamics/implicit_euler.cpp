@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/factorised_solver.h"
 #include "core/dynamics/implicit_momenta.h"
 #include "core/model/errors.h"
 
@@ -18,6 +19,15 @@ constexpr int kMostShortenings = 20;  // of an iteration that climbs: a milliont
 constexpr double kRounding = 1e-12;   // share of an energy that sums of many terms may be off by
 
 }  // namespace
+
+ImplicitEuler::ImplicitEuler(const ImplicitSettings& settings) : settings_(settings) {}
+ImplicitEuler::ImplicitEuler(const ImplicitEuler& other) : settings_(other.settings_) {}
+ImplicitEuler& ImplicitEuler::operator=(const ImplicitEuler& other) {
+  return *this = ImplicitEuler(other);
+}
+ImplicitEuler::ImplicitEuler(ImplicitEuler&&) noexcept = default;
+ImplicitEuler& ImplicitEuler::operator=(ImplicitEuler&&) noexcept = default;
+ImplicitEuler::~ImplicitEuler() = default;
 
 ImplicitReport ImplicitEuler::step(Lattice& lattice, std::span<const std::int32_t> points,
                                    double dt, std::span<const PointSupport> supports) {

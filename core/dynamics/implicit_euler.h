@@ -11,6 +11,8 @@
 
 namespace limber {
 
+class FactorisedSolver;  // keeps Eigen's sparse solvers out of whoever includes this
+
 struct ImplicitSettings {
   // Newton iterations of one step; 1 is the linearly implicit step.
   int most_newton_iterations = 10;
@@ -52,13 +54,13 @@ struct ImplicitReport {
 // bit from run to run.
 class ImplicitEuler {
  public:
-  explicit ImplicitEuler(const ImplicitSettings& settings = {}) : settings_(settings) {}
+  explicit ImplicitEuler(const ImplicitSettings& settings = {});
   // A copy sets up its own system with its first step.
-  ImplicitEuler(const ImplicitEuler& other) : settings_(other.settings_) {}
-  ImplicitEuler& operator=(const ImplicitEuler& other) { return *this = ImplicitEuler(other); }
-  ImplicitEuler(ImplicitEuler&&) = default;
-  ImplicitEuler& operator=(ImplicitEuler&&) = default;
-  ~ImplicitEuler() = default;
+  ImplicitEuler(const ImplicitEuler& other);
+  ImplicitEuler& operator=(const ImplicitEuler& other);
+  ImplicitEuler(ImplicitEuler&&) noexcept;
+  ImplicitEuler& operator=(ImplicitEuler&&) noexcept;
+  ~ImplicitEuler();
 
   // To be told when springs broke, after rebuild_active(), and for other points.
   void topology_changed() { stale_ = true; }

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/dynamics/factorised_solver.h"
 #include "core/dynamics/implicit_forces.h"
 #include "core/dynamics/implicit_momenta.h"
 #include "core/dynamics/implicit_solver.h"
