@@ -1,12 +1,12 @@
 #include "bullet_bridge/contact_solver.h"
 
-#include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "bullet_bridge/body_motion.h"
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/waking.h"
 
@@ -25,14 +25,8 @@ Vec3 gravity_of(const ShadowBody& shadow) {
   return shadow.linear_factor.cwiseProduct(from_bullet(shadow.body->getGravity()));
 }
 
-// m/s, of any point of the body.
-double largest_speed(const ShadowBody& body, const btCollisionObject& object) {
-  double speed = body.velocity.norm();
-  if (!body.moves()) return speed;
-  btVector3 centre;
-  btScalar radius = 0;
-  object.getCollisionShape()->getBoundingSphere(centre, radius);
-  return speed + body.angular_velocity.norm() * (radius + centre.length());
+BodyMotion motion_of(const ShadowBody& shadow) {
+  return {shadow.velocity, shadow.angular_velocity};
 }
 
 }  // namespace
@@ -49,7 +43,7 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTra
   substep_ = 0;
   for (const NearBody& body : near) {
     const int shadow = shadows_.shadow_of(*body.object);
-    const double way = largest_speed(shadows_[shadow], *body.object) * tick;
+    const double way = largest_speed(motion_of(shadows_[shadow]), *body.object) * tick;
     const Vec3 around = Vec3::Constant(way);
     obstacles_.emplace_back(*body.object, shadow, shadows_[shadow], body.low - around,
                             body.high + around, way, shapes_);
@@ -85,7 +79,7 @@ void ContactSolver::list_pairs(const Lattice& lattice, double dt) {
   const double time = kListInterval * dt;
   for (Obstacle& obstacle : obstacles_) {
     const ShadowBody& body = shadows_[obstacle.shadow()];
-    const double body_speed = largest_speed(body, obstacle.object());
+    const double body_speed = largest_speed(motion_of(body), obstacle.object());
     const double least = (2.0 * body_speed + kPushShare * fastest) * time + kListMargin;
     obstacle.list(lattice, surface_, body, {least, 2.0 * time});
   }
