@@ -355,7 +355,8 @@ void CoSimulation::Impl::step_lattices(double dt) {
   for (const Piece* piece : surroundings.carried) {
     carried.push_back({&piece->proxy->body(), piece->points, piece->proxy->local()});
   }
-  contacts_.begin_tick(world_, boundary_, surroundings.bodies, carried, dt);
+  contacts_.begin_tick(world_, boundary_, time_operator_.pieces(), surroundings.bodies, carried,
+                       dt);
   gather_loads(dt);
   const int substeps = substeps_for(dt);
   environment_.gravity = from_bullet(world_.getGravity());

@@ -9,6 +9,7 @@
 #include "bullet_bridge/body_motion.h"
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/waking.h"
+#include "core/threads/parallel_for.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -32,10 +33,11 @@ BodyMotion motion_of(const ShadowBody& shadow) {
 }  // namespace
 
 void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTracker& boundary,
-                               std::span<const NearBody> near,
+                               const Components& pieces, std::span<const NearBody> near,
                                std::span<const CarriedPiece> carried, double tick) {
   shadows_.next_tick();
   boundary_ = &boundary;
+  pieces_ = &pieces;
   surface_ = {};  // other points may have become flexible
   std::vector<Obstacle> last_tick = std::exchange(obstacles_, {});
   carried_.assign(carried.begin(), carried.end());
@@ -64,8 +66,18 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTra
 void ContactSolver::add_forces(Lattice& lattice, double dt) {
   if (substep_++ % kListInterval == 0) list_pairs(lattice, dt);
   for (const PointLoad& load : loads_) lattice.force[load.point] += load.force;
-  for (Obstacle& obstacle : obstacles_) {
-    obstacle.press(lattice, surface_, shadows_[obstacle.shadow()], dt);
+  const auto serial = std::partition_point(clusters_.begin(), clusters_.end(),
+                                           [](const ContactCluster& c) { return c.asks_bullet; });
+  for (auto cluster = clusters_.begin(); cluster != serial; ++cluster) press(lattice, *cluster, dt);
+  parallel_tasks(clusters_.end() - serial, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) press(lattice, serial[i], dt);
+  });
+}
+
+void ContactSolver::press(Lattice& lattice, const ContactCluster& cluster, double dt) {
+  for (const ContactCluster::Part& part : cluster.parts) {
+    Obstacle& obstacle = obstacles_[part.obstacle];
+    obstacle.press(lattice, surface_, shadows_[obstacle.shadow()], part.share, dt);
   }
 }
 
@@ -81,8 +93,9 @@ void ContactSolver::list_pairs(const Lattice& lattice, double dt) {
     const ShadowBody& body = shadows_[obstacle.shadow()];
     const double body_speed = largest_speed(motion_of(body), obstacle.object());
     const double least = (2.0 * body_speed + kPushShare * fastest) * time + kListMargin;
-    obstacle.list(lattice, surface_, body, {least, 2.0 * time});
+    obstacle.list(lattice, surface_, body, {least, 2.0 * time}, dt);
   }
+  clusters_ = contact_clusters(obstacles_, shadows_, *pieces_);
 }
 
 void ContactSolver::advance(Lattice& lattice, double dt) {
