@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_bridge/body_motion.h"
 #include "bullet_bridge/co_simulation_impl.h"
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/neighbourhood.h"
@@ -18,9 +19,18 @@ inline namespace LIMBER_BULLET_PRECISION {
 namespace {
 
 double mass_of(const btCollisionObject& object) {
-  const btRigidBody* body = btRigidBody::upcast(&object);
-  if (!body || body->isStaticOrKinematicObject() || body->getInvMass() == 0) return kUnbreakable;
-  return 1.0 / body->getInvMass();
+  if (!is_movable(object)) return kUnbreakable;
+  const btScalar inverse = btRigidBody::upcast(&object)->getInvMass();
+  return inverse > 0 ? 1.0 / inverse : kUnbreakable;
+}
+
+// By groups, masks and the game's own filter.
+bool may_meet(btDiscreteDynamicsWorld& world, const btCollisionObject& a,
+              const btCollisionObject& b) {
+  const auto handle = [](const btCollisionObject& object) {
+    return const_cast<btBroadphaseProxy*>(object.getBroadphaseHandle());
+  };
+  return world.getPairCache()->needsBroadphaseCollision(handle(a), handle(b));
 }
 
 }  // namespace
@@ -33,6 +43,7 @@ void CoSimulation::Impl::before_solve(double dt) {
   tick_ = dt;
   thawed_in_tick_ = false;
   jointed_ = jointed_bodies(world_);
+  sweeping_ = sweeping_bodies(world_, dt);
   for (Piece* piece : flexible_pieces()) take_changes_of_game(*piece, dt);
   for (const auto& piece : pieces_) {
     if (piece->proxy) piece->proxy->remember();
@@ -64,6 +75,16 @@ void CoSimulation::Impl::thaw_what_will_be_hit(double dt) {
     const auto piece_a = piece_of_.find(a), piece_b = piece_of_.find(b);
     if (piece_a != piece_of_.end()) consider_touch(*piece_a->second, *b, dt);
     if (piece_b != piece_of_.end()) consider_touch(*piece_b->second, *a, dt);
+  }
+  for (const NearBody& mover : sweeping_) consider_sweep(mover, dt);
+}
+
+// Bullet pairs what sweeps through the world with proxies only when it has reached them.
+void CoSimulation::Impl::consider_sweep(const NearBody& mover, double dt) {
+  for (const btCollisionObject* met : bodies_in(world_, mover.low, mover.high)) {
+    const auto piece = piece_of_.find(met);
+    if (piece == piece_of_.end() || !may_meet(world_, *mover.object, *met)) continue;
+    consider_touch(*piece->second, *mover.object, dt);
   }
 }
 
@@ -131,7 +152,7 @@ void CoSimulation::Impl::thaw_what_lattices_hit(double dt) {
   for (std::size_t before = pieces_.size() + 1, now = 0; now != before;) {
     before = flexible_pieces().size();
     for (Piece* flexible : flexible_pieces()) {
-      for (const NearBody& body : bodies_within_reach(world_, lattice_, flexible->points, dt)) {
+      for (const NearBody& body : bodies_near(*flexible, dt)) {
         const auto found = piece_of_.find(body.object);
         if (found != piece_of_.end()) consider_lattice_hit(*flexible, *found->second, dt);
       }
@@ -267,11 +288,15 @@ void CoSimulation::Impl::refuse_step(double substeps) const {
            std::to_string(settings_.most_substeps) + ")"});
 }
 
+std::vector<NearBody> CoSimulation::Impl::bodies_near(const Piece& piece, double dt) const {
+  return bodies_within_reach(world_, sweeping_, lattice_, piece.points, dt);
+}
+
 CoSimulation::Impl::Surroundings CoSimulation::Impl::surroundings_of(
     const std::vector<Piece*>& flexible, double dt) const {
   std::vector<NearBody> near;
   for (const Piece* piece : flexible) {
-    const auto reached = bodies_within_reach(world_, lattice_, piece->points, dt);
+    const std::vector<NearBody> reached = bodies_near(*piece, dt);
     near.insert(near.end(), reached.begin(), reached.end());
   }
   Surroundings surroundings;
@@ -330,7 +355,8 @@ void CoSimulation::Impl::step_lattices(double dt) {
   for (const Piece* piece : surroundings.carried) {
     carried.push_back({&piece->proxy->body(), piece->points, piece->proxy->local()});
   }
-  contacts_.begin_tick(world_, boundary_, surroundings.bodies, carried, dt);
+  contacts_.begin_tick(world_, boundary_, time_operator_.pieces(), surroundings.bodies, carried,
+                       dt);
   gather_loads(dt);
   const int substeps = substeps_for(dt);
   environment_.gravity = from_bullet(world_.getGravity());

@@ -58,6 +58,7 @@ class CoSimulation::Impl : public TickHooks {
   std::vector<std::unique_ptr<Piece>> pieces_;                     // ascending by id
   std::unordered_map<const btCollisionObject*, Piece*> piece_of_;  // look-ups only
   std::vector<std::pair<const btCollisionObject*, const btCollisionObject*>> passing_;
+  std::vector<NearBody> sweeping_;  // kinematic bodies and links on their way in this tick
   bool thawed_in_tick_ = false;
   std::unordered_set<const btRigidBody*> jointed_;   // of Bullet's world, at the tick's start
   std::vector<std::shared_ptr<PieceBody>> orphans_;  // joints still name them
@@ -107,6 +108,7 @@ class CoSimulation::Impl : public TickHooks {
     std::vector<Piece*> carried;  // rigid pieces
   };
   Surroundings surroundings_of(const std::vector<Piece*>& flexible, double dt) const;
+  std::vector<NearBody> bodies_near(const Piece& piece, double dt) const;
   int substeps_for(double dt);
   double substeps_wanted(double dt) const;
   void make_stiffest_implicit(double dt);
@@ -115,6 +117,7 @@ class CoSimulation::Impl : public TickHooks {
   void note(const StepReport& report);
   bool switching() const { return settings_.representation == Representation::kSwitching; }
   void consider_touch(Piece& piece, const btCollisionObject& other, double dt);
+  void consider_sweep(const NearBody& mover, double dt);
   void consider_lattice_hit(const Piece& flexible, Piece& proxy, double dt);
   bool material_meets(Piece& piece, const btCollisionObject& other, double limit,
                       const PredictedTouch& touch, double dt);

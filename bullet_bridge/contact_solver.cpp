@@ -1,14 +1,15 @@
 #include "bullet_bridge/contact_solver.h"
 
-#include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "bullet_bridge/body_motion.h"
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/waking.h"
+#include "core/threads/parallel_for.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -25,23 +26,18 @@ Vec3 gravity_of(const ShadowBody& shadow) {
   return shadow.linear_factor.cwiseProduct(from_bullet(shadow.body->getGravity()));
 }
 
-// m/s, of any point of the body.
-double largest_speed(const ShadowBody& body, const btCollisionObject& object) {
-  double speed = body.velocity.norm();
-  if (!body.moves()) return speed;
-  btVector3 centre;
-  btScalar radius = 0;
-  object.getCollisionShape()->getBoundingSphere(centre, radius);
-  return speed + body.angular_velocity.norm() * (radius + centre.length());
+BodyMotion motion_of(const ShadowBody& shadow) {
+  return {shadow.velocity, shadow.angular_velocity};
 }
 
 }  // namespace
 
 void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTracker& boundary,
-                               std::span<const NearBody> near,
+                               const Components& pieces, std::span<const NearBody> near,
                                std::span<const CarriedPiece> carried, double tick) {
   shadows_.next_tick();
   boundary_ = &boundary;
+  pieces_ = &pieces;
   surface_ = {};  // other points may have become flexible
   std::vector<Obstacle> last_tick = std::exchange(obstacles_, {});
   carried_.assign(carried.begin(), carried.end());
@@ -49,7 +45,7 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTra
   substep_ = 0;
   for (const NearBody& body : near) {
     const int shadow = shadows_.shadow_of(*body.object);
-    const double way = largest_speed(shadows_[shadow], *body.object) * tick;
+    const double way = largest_speed(motion_of(shadows_[shadow]), *body.object) * tick;
     const Vec3 around = Vec3::Constant(way);
     obstacles_.emplace_back(*body.object, shadow, shadows_[shadow], body.low - around,
                             body.high + around, way, shapes_);
@@ -70,8 +66,18 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTra
 void ContactSolver::add_forces(Lattice& lattice, double dt) {
   if (substep_++ % kListInterval == 0) list_pairs(lattice, dt);
   for (const PointLoad& load : loads_) lattice.force[load.point] += load.force;
-  for (Obstacle& obstacle : obstacles_) {
-    obstacle.press(lattice, surface_, shadows_[obstacle.shadow()], dt);
+  const auto serial = std::partition_point(clusters_.begin(), clusters_.end(),
+                                           [](const ContactCluster& c) { return c.asks_bullet; });
+  for (auto cluster = clusters_.begin(); cluster != serial; ++cluster) press(lattice, *cluster, dt);
+  parallel_tasks(clusters_.end() - serial, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) press(lattice, serial[i], dt);
+  });
+}
+
+void ContactSolver::press(Lattice& lattice, const ContactCluster& cluster, double dt) {
+  for (const ContactCluster::Part& part : cluster.parts) {
+    Obstacle& obstacle = obstacles_[part.obstacle];
+    obstacle.press(lattice, surface_, shadows_[obstacle.shadow()], part.share, dt);
   }
 }
 
@@ -85,10 +91,11 @@ void ContactSolver::list_pairs(const Lattice& lattice, double dt) {
   const double time = kListInterval * dt;
   for (Obstacle& obstacle : obstacles_) {
     const ShadowBody& body = shadows_[obstacle.shadow()];
-    const double body_speed = largest_speed(body, obstacle.object());
+    const double body_speed = largest_speed(motion_of(body), obstacle.object());
     const double least = (2.0 * body_speed + kPushShare * fastest) * time + kListMargin;
-    obstacle.list(lattice, surface_, body, {least, 2.0 * time});
+    obstacle.list(lattice, surface_, body, {least, 2.0 * time}, dt);
   }
+  clusters_ = contact_clusters(obstacles_, shadows_, *pieces_);
 }
 
 void ContactSolver::advance(Lattice& lattice, double dt) {

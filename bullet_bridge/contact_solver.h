@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_bridge/contact_clusters.h"
 #include "bullet_bridge/neighbourhood.h"
 #include "bullet_bridge/obstacle.h"
 #include "bullet_bridge/push.h"
@@ -34,11 +35,11 @@ struct CarriedPiece {
 // remember: sides, books and friction.
 class ContactSolver : public SubstepCoupling {
  public:
-  // `near`: bodies that the lattice may reach in this tick, in a fixed order. `boundary` has to
-  // follow the lattice's breaks.
+  // `near`: bodies that the lattice may reach in this tick, in a fixed order. `boundary` and
+  // `pieces` have to follow the lattice's breaks.
   void begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTracker& boundary,
-                  std::span<const NearBody> near, std::span<const CarriedPiece> carried,
-                  double tick);
+                  const Components& pieces, std::span<const NearBody> near,
+                  std::span<const CarriedPiece> carried, double tick);
 
   // In a tick without lattices: what contacts remembered is no longer true.
   void forget() {
@@ -65,6 +66,7 @@ class ContactSolver : public SubstepCoupling {
 
  private:
   void list_pairs(const Lattice& lattice, double dt);
+  void press(Lattice& lattice, const ContactCluster& cluster, double dt);
   void pass_on_carried_forces(const Lattice& lattice);
   void move_carried_points(Lattice& lattice) const;
 
@@ -75,7 +77,9 @@ class ContactSolver : public SubstepCoupling {
   std::vector<CarriedPiece> carried_;
   std::vector<int> carried_shadow_;
   std::vector<bool> supported_;  // by shadow: has support contacts, so that Bullet adds its gravity
+  std::vector<ContactCluster> clusters_;
   const BoundaryTracker* boundary_ = nullptr;
+  const Components* pieces_ = nullptr;
   LatticeSurface surface_;
   ShapeCache shapes_;
   int substep_ = 0;

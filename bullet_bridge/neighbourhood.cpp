@@ -1,11 +1,12 @@
 #include "bullet_bridge/neighbourhood.h"
 
-#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "bullet_bridge/body_motion.h"
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/lattice_shape.h"
 #include "bullet_bridge/shadow_body.h"
@@ -19,15 +20,19 @@ namespace {
 constexpr double kReachMargin = 0.01;  // m, beyond the way at the present speed
 constexpr std::size_t kMostSamples = 300;
 
+bool is_met(const btCollisionObject& object) {
+  const int type = object.getInternalType();
+  const bool body = type == btCollisionObject::CO_RIGID_BODY ||
+                    type == btCollisionObject::CO_COLLISION_OBJECT ||
+                    type == btCollisionObject::CO_FEATHERSTONE_LINK;
+  return body && object.hasContactResponse() && !stands_for_lattice(object);
+}
+
 struct Collector : btBroadphaseAabbCallback {
   std::vector<const btCollisionObject*> found;
   bool process(const btBroadphaseProxy* proxy) override {
     const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
-    const int type = object->getInternalType();
-    const bool body =
-        type == btCollisionObject::CO_RIGID_BODY || type == btCollisionObject::CO_COLLISION_OBJECT;
-    if (body && object->hasContactResponse() && !stands_for_lattice(*object))
-      found.push_back(object);
+    if (is_met(*object)) found.push_back(object);
     return true;
   }
 };
@@ -86,15 +91,45 @@ std::vector<Vec3> places_seen_from(const btCollisionObject& other, const btColli
 
 }  // namespace
 
-std::vector<NearBody> bodies_within_reach(btDiscreteDynamicsWorld& world, const Lattice& lattice,
+std::vector<NearBody> sweeping_bodies(const btCollisionWorld& world, double dt) {
+  std::vector<NearBody> sweeping;
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    const btCollisionObject& object = *objects[i];
+    if (object.isStaticObject() || is_movable(object) || !is_met(object)) continue;
+    const double way = largest_speed(motion_of(object), object) * dt;
+    if (way == 0.0) continue;
+    btVector3 low, high;
+    object.getCollisionShape()->getAabb(object.getWorldTransform(), low, high);
+    const Vec3 around = Vec3::Constant(way);
+    sweeping.push_back({&object, from_bullet(low) - around, from_bullet(high) + around});
+  }
+  return sweeping;
+}
+
+std::vector<const btCollisionObject*> bodies_in(btCollisionWorld& world, const Vec3& low,
+                                                const Vec3& high) {
+  Collector collector;
+  world.getBroadphase()->aabbTest(to_bullet(low), to_bullet(high), collector);
+  return std::move(collector.found);
+}
+
+std::vector<NearBody> bodies_within_reach(btCollisionWorld& world,
+                                          std::span<const NearBody> sweeping,
+                                          const Lattice& lattice,
                                           std::span<const std::int32_t> points, double dt) {
   const Bounds bounds = bounds_of(lattice, points);
   const Vec3 reach = Vec3::Constant(1.5 * bounds.fastest * dt + kReachMargin);
   const Vec3 low = bounds.low - reach, high = bounds.high + reach;
-  Collector collector;
-  world.getBroadphase()->aabbTest(to_bullet(low), to_bullet(high), collector);
   std::vector<NearBody> near;
-  for (const btCollisionObject* object : collector.found) near.push_back({object, low, high});
+  for (const btCollisionObject* object : bodies_in(world, low, high)) {
+    near.push_back({object, low, high});
+  }
+  for (const NearBody& mover : sweeping) {
+    const bool apart =
+        (mover.low.array() > high.array()).any() || (mover.high.array() < low.array()).any();
+    if (!apart) near.push_back({mover.object, low, high});
+  }
   return merged(std::move(near));
 }
 

@@ -6,8 +6,8 @@
 #include "bullet_bridge/precision.h"
 #include "core/dynamics/lattice.h"
 
-class btDiscreteDynamicsWorld;
 class btCollisionObject;
+class btCollisionWorld;
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -20,10 +20,21 @@ struct NearBody {
   Vec3 low, high;
 };
 
-// The bodies whose bounding boxes the points may reach within dt (their boxes already include their
-// own way in this tick), in the order in which the world holds them. Bodies without contact
-// response are left out.
-std::vector<NearBody> bodies_within_reach(btDiscreteDynamicsWorld& world, const Lattice& lattice,
+// The kinematic bodies and the links of multi-bodies that move, with the boxes that they may be in
+// within dt. Bullet's own boxes of them are those of the moment; those of what impulses move
+// include their way in the tick.
+std::vector<NearBody> sweeping_bodies(const btCollisionWorld& world, double dt);
+
+// What has a bounding box of Bullet's that reaches into this one (m), in no order to rely on.
+// Without what has no contact response and flexible pieces.
+std::vector<const btCollisionObject*> bodies_in(btCollisionWorld& world, const Vec3& low,
+                                                const Vec3& high);
+
+// The bodies that the points may reach within dt, those that sweep through the world among them, in
+// the order in which the world holds them. Bodies without contact response are left out.
+std::vector<NearBody> bodies_within_reach(btCollisionWorld& world,
+                                          std::span<const NearBody> sweeping,
+                                          const Lattice& lattice,
                                           std::span<const std::int32_t> points, double dt);
 
 // In the order of the world, each body once, with a box around all of its boxes.

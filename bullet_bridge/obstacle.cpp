@@ -84,7 +84,7 @@ bool may_touch(const ContactPart& part, const Vec3& local, double reach) {
 }
 
 // A plane is met by points first. Triangles have no depth that deepest_place() could look for: what
-// stands out of a mesh and is thinner than the lattice's cells is met by points alone.
+// stands out of them is cut out as parts of its own.
 bool fits_between_points(const ContactPart& part) {
   return part.kind != ContactPart::Kind::kPlane && part.kind != ContactPart::Kind::kTriangles;
 }
@@ -107,7 +107,7 @@ class KnownPairs {
 };
 
 template <class P>
-const P* with_part(std::span<const P> pairs, std::int32_t part) {
+const P* with_part(std::span<const P> pairs, std::int64_t part) {
   const auto found =
       std::find_if(pairs.begin(), pairs.end(), [&](const P& pair) { return pair.part == part; });
   return found == pairs.end() ? nullptr : &*found;
@@ -135,6 +135,22 @@ Vec3 slip_at(const Lattice& lattice, const ShadowBody& body, const Place& place)
 // length, zero where it has none.
 bool is_behind(const Vec3& contact_normal, const Vec3& outwards) {
   return contact_normal.dot(outwards) > 0.5 * outwards.norm();
+}
+
+// A spike's sides are next to all of it, but they are no way out for a face that it has pierced:
+// that has to go back across itself. What it runs along is led out by the nearest side.
+void hold_across(const ContactPart& part, const Vec3& area, PointTrack& track) {
+  if (!track.inside) return;
+  const Vec3 facing = part.direction_from_part_frame(part.facing);
+  const double along = area.dot(facing);
+  if (std::abs(along) > 0.5 * area.norm() * facing.norm()) {
+    track.normal = std::copysign(1.0, along) * area.normalized();
+  }
+}
+
+// The sides of a sharp corner that are not triangles of the mesh.
+bool is_within_body(const ContactPart& part, const Vec3& normal) {
+  return part.for_faces && part.direction_to_part_frame(normal).dot(part.facing) <= 0.0;
 }
 
 }  // namespace
@@ -248,9 +264,36 @@ Mat3 Obstacle::corners_in_frame(const Lattice& lattice, const ShadowBody& body,
 }
 
 void Obstacle::list(const Lattice& lattice, const LatticeSurface& surface, const ShadowBody& body,
-                    const ListingReach& reach) {
-  list_points(lattice, body, reach);
-  list_faces(lattice, surface, body, reach);
+                    const ListingReach& reach, double dt) {
+  list_points(lattice, body, reach, dt);
+  list_faces(lattice, surface, body, reach, dt);
+  if (points_.empty() && faces_.empty()) sharers_ = 1;
+}
+
+bool Obstacle::asks_bullet() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const ContactPart& part) {
+    return part.kind == ContactPart::Kind::kConvex;
+  });
+}
+
+void Obstacle::count_pairs(std::span<const std::int32_t> label_of_point,
+                           std::vector<std::size_t>& pairs) const {
+  for (const PointPair& pair : points_) ++pairs[label_of_point[pair.of]];
+  for (const FacePair& pair : faces_) ++pairs[label_of_point[pair.corners[0]]];
+}
+
+void Obstacle::share_out(std::span<const std::int32_t> label_of_point,
+                         std::span<const std::int32_t> share_of_label,
+                         std::vector<ObstacleShare>& shares) const {
+  const auto share_of = [&](std::int32_t point) -> ObstacleShare& {
+    return shares[share_of_label[label_of_point[point]]];
+  };
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    share_of(points_[i].of).points.push_back(static_cast<std::int32_t>(i));
+  }
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    share_of(faces_[i].corners[0]).faces.push_back(static_cast<std::int32_t>(i));
+  }
 }
 
 // What is found inside without having come in starts without force (a proxy that thaws where its
@@ -274,7 +317,7 @@ P Obstacle::known_or_new(const P* known, std::int32_t of, std::size_t listed,
 // What is held stays listed wherever it is: that it has come past a thin part, or under a surface
 // without an inside, its place does not tell.
 void Obstacle::list_points(const Lattice& lattice, const ShadowBody& body,
-                           const ListingReach& reach) {
+                           const ListingReach& reach, double dt) {
   const std::vector<PointPair> old = std::exchange(points_, {});
   KnownPairs<PointPair> known(old);
   for (std::int32_t p : lattice.dynamic_points) {
@@ -282,15 +325,17 @@ void Obstacle::list_points(const Lattice& lattice, const ShadowBody& body,
     const double reached = reach.least + lattice.motion[p].velocity.norm() * reach.time;
     const std::span<const PointPair> known_here = known.of(p);
     for (std::size_t k = 0; k < parts_.size(); ++k) {
+      if (parts_[k].for_faces) continue;
       const PointPair* then = with_part(known_here, parts_[k].id);
       if (!is_held(then) && !may_touch(parts_[k], local, reached)) continue;
       points_.push_back(known_or_new(then, p, k, local));
+      points_.back().law = law_at(lattice, p, parts_[k], dt);
     }
   }
 }
 
 void Obstacle::list_faces(const Lattice& lattice, const LatticeSurface& surface,
-                          const ShadowBody& body, const ListingReach& reach) {
+                          const ShadowBody& body, const ListingReach& reach, double dt) {
   const std::vector<FacePair> old = std::exchange(faces_, {});
   KnownPairs<FacePair> known(old);
   for (const SurfaceFace& face : surface.faces()) {
@@ -307,23 +352,26 @@ void Obstacle::list_faces(const Lattice& lattice, const LatticeSurface& surface,
       if (!fits_between_points(parts_[k])) continue;
       const FacePair* then = with_part(known_here, parts_[k].id);
       if (!is_held(then) && !may_touch(parts_[k], local, reached)) continue;
-      faces_.push_back(known_or_new(then, face.face, k, local));
-      FacePair& pair = faces_.back();
+      FacePair pair = known_or_new(then, face.face, k, local);
+      if (!then && parts_[k].for_faces && pair.track.inside) continue;  // not by a way in
       if (!then) pair.last = corners_in_frame(lattice, body, face.corners);
       pair.corners = face.corners;
+      pair.law = law_at(lattice, face.corners[0], parts_[k], dt);
       pair.clear = 0.0;
       pair.sheet = face.sheet;
+      faces_.push_back(pair);
     }
   }
 }
 
-void Obstacle::press(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body, double dt) {
-  pushed_ = 0;
-  for (PointPair& pair : points_) press_point(lattice, surface, body, pair, dt);
-  for (FacePair& pair : faces_) {
-    if (surface.has(pair.of)) press_face(lattice, body, pair, dt);
+void Obstacle::press(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body,
+                     const ObstacleShare& share, double dt) {
+  if (body.movable()) pushed_ = 0;
+  for (std::int32_t i : share.points) press_point(lattice, surface, body, points_[i], dt);
+  for (std::int32_t i : share.faces) {
+    if (surface.has(faces_[i].of)) press_face(lattice, body, faces_[i], dt);
   }
-  sharers_ = std::max(1, pushed_);
+  if (body.movable()) sharers_ = std::max(1, pushed_);
 }
 
 void Obstacle::mark_yielding(std::vector<std::uint8_t>& points) const {
@@ -361,14 +409,18 @@ void Obstacle::press_face(Lattice& lattice, ShadowBody& body, FacePair& pair, do
   const double size = (corners.colwise() - corners.col(0)).colwise().norm().maxCoeff();
   const FacePenetration deepest = deepest_place(part, corners, kDepthTolerance * size);
   pair.track.last = before * deepest.weights;  // the place may have moved on the face, this has not
+  const Vec3 outwards = twice_area_vector({corners.col(0), corners.col(1), corners.col(2)});
+  if (part.for_faces) hold_across(part, outwards, pair.track);
   Penetration contact = follow(part, corners * deepest.weights, pair.track);
   pair.clear = clearance(part, deepest, pair.track);
   if (contact.depth <= 0.0) return pair.let_go();
-  const Vec3 outwards = twice_area_vector({corners.col(0), corners.col(1), corners.col(2)});
   const bool new_here = !pair.holds && !pair.sheet;
   if (new_here && is_behind(contact.normal, outwards)) return;
+  if (!pair.holds && is_within_body(part, contact.normal)) return;
   contact.depth -= std::max(0.0, deepest.corners);
   push(lattice, body, pair, {pair.corners, deepest.weights}, contact, dt);
+  const bool presses = pair.books.open || pair.offset > 0.0;
+  if (!presses) pair.clear = deepest.settled;
 }
 
 PenaltyContact Obstacle::law_at(const Lattice& lattice, std::int32_t point, const ContactPart& part,
@@ -458,10 +510,10 @@ void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const
   if (std::isinf(pair.books.mass)) return;
   pair.pressed = place;
   pair.normal = normal;
-  PenaltyContact law = law_at(lattice, place.lawgiver(), parts_[pair.listed], dt);
+  PenaltyContact law = pair.law;
   if (!counted) law.deepest = kNoLimit;
   const double press = bear(lattice, body, pair, law, depth, dt);
-  ++pushed_;
+  if (body.movable()) ++pushed_;
   const double elastic = law.elastic_force(pair.books.mass, depth);
   pair.yields = depth > kLeastYielding && press < kBearingShare * elastic;
   if (press <= 0.0) return;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bullet_bridge/lattice_surface.h"
@@ -46,6 +47,13 @@ struct ListingReach {
   double time = 0.0;   // s, at the point's own speed
 };
 
+// Some of an obstacle's pairs: those of points, then those of faces, by their numbers.
+struct ObstacleShare {
+  std::vector<std::int32_t> points, faces;  // ascending
+
+  std::size_t size() const { return points.size() + faces.size(); }
+};
+
 // A body of Bullet's world as the lattice meets it in one tick: points, and faces between them,
 // against the parts of its shape. Each pair remembers through which side it came in, from tick to
 // tick; nothing that came in on one side leaves on another.
@@ -63,12 +71,26 @@ class Obstacle {
   // elsewhere or has another shape.
   void remember(Obstacle&& last_tick);
 
-  // Lists the pairs that may touch until the next listing.
+  // Lists the pairs that may touch until the next listing, for substeps of dt.
   void list(const Lattice& lattice, const LatticeSurface& surface, const ShadowBody& body,
-            const ListingReach& reach);
+            const ListingReach& reach, double dt);
 
-  // Adds the forces of all pairs that touch, equal and opposite, to points and shadow.
-  void press(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body, double dt);
+  // Are some of its parts known to Bullet's general query alone, which is for one thread?
+  bool asks_bullet() const;
+
+  // Of the listed pairs, by a label of their points, which is the same for all corners of a face:
+  // adds how many there are to `pairs`, by label; gives them to `shares`, by what the label is of.
+  void count_pairs(std::span<const std::int32_t> label_of_point,
+                   std::vector<std::size_t>& pairs) const;
+  void share_out(std::span<const std::int32_t> label_of_point,
+                 std::span<const std::int32_t> share_of_label,
+                 std::vector<ObstacleShare>& shares) const;
+
+  // Adds the forces of those pairs of the share that touch, equal and opposite, to points and
+  // shadow. In a substep, each pair once; of a body that is not movable shares may press at once
+  // that have no point in common, of a movable one all pairs are one share.
+  void press(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body,
+             const ObstacleShare& share, double dt);
 
   // Marks the points, shape (P), at which what has sunk in is on its way out still.
   void mark_yielding(std::vector<std::uint8_t>& points) const;
@@ -78,12 +100,13 @@ class Obstacle {
   template <class Place>
   struct Pair {
     std::int32_t of;     // point, or face
-    std::int32_t part;   // its id
+    std::int64_t part;   // its id
     std::size_t listed;  // where the part is in parts_
     PointTrack track;
-    double offset;  // m of penetration that was there when the pair was first seen
-    Place pressed;  // in the last substep, if its books are open
-    Vec3 normal;    // along which, world
+    double offset;       // m of penetration that was there when the pair was first seen
+    Place pressed;       // in the last substep, if its books are open
+    Vec3 normal;         // along which, world
+    PenaltyContact law;  // until the next listing
     PassiveContact books;
     FrictionSpring friction;
     bool holds = false;   // it has pressed since it came in
@@ -95,7 +118,7 @@ class Obstacle {
   struct FacePair : Pair<FacePlace> {
     std::array<std::int32_t, 3> corners = {-1, -1, -1};
     Mat3 last = Mat3::Zero();  // the corners when it was last looked at, in the obstacle's frame, m
-    double clear = 0.0;        // m: it does not touch before a corner has moved so far from there
+    double clear = 0.0;        // m: it does not press before a corner has moved so far from there
     bool sheet = false;
   };
 
@@ -106,9 +129,10 @@ class Obstacle {
   void change_frame(PointTrack& track) const;
   template <class P>
   P known_or_new(const P* known, std::int32_t of, std::size_t listed, const Vec3& local) const;
-  void list_points(const Lattice& lattice, const ShadowBody& body, const ListingReach& reach);
+  void list_points(const Lattice& lattice, const ShadowBody& body, const ListingReach& reach,
+                   double dt);
   void list_faces(const Lattice& lattice, const LatticeSurface& surface, const ShadowBody& body,
-                  const ListingReach& reach);
+                  const ListingReach& reach, double dt);
   void press_point(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body,
                    PointPair& pair, double dt);
   void press_face(Lattice& lattice, ShadowBody& body, FacePair& pair, double dt);

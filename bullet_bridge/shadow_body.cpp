@@ -3,6 +3,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <LinearMath/btTransformUtil.h>
 
+#include "bullet_bridge/body_motion.h"
 #include "bullet_bridge/conversions.h"
 
 namespace limber::bullet {
@@ -72,14 +73,15 @@ ShadowBody make_shadow(const btCollisionObject& object) {
   const btTransform& pose = object.getWorldTransform();
   shadow.position = shadow.start_position = from_bullet(pose.getOrigin());
   shadow.orientation = shadow.start_orientation = from_bullet(pose.getRotation());
+  const BodyMotion motion = motion_of(object);
+  shadow.velocity = motion.velocity;
+  shadow.angular_velocity = motion.angular_velocity;
   auto* body = const_cast<btRigidBody*>(btRigidBody::upcast(&object));
   if (body) {
     shadow.body = body;
     shadow.flags = body->getFlags();
-    shadow.velocity = from_bullet(body->getLinearVelocity());
-    shadow.angular_velocity = from_bullet(body->getAngularVelocity());
   }
-  if (body && !body->isStaticOrKinematicObject()) {
+  if (is_movable(object)) {
     shadow.inverse_mass = body->getInvMass();
     shadow.inverse_inertia_local = from_bullet(body->getInvInertiaDiagLocal()).asDiagonal();
     shadow.linear_factor = from_bullet(body->getLinearFactor());

@@ -22,7 +22,7 @@ inline namespace LIMBER_BULLET_PRECISION {
 // turns as a free body does, whatever Bullet's flags for gyroscopic torque are, which Bullet would
 // add once more: they are off from write_velocity() to correct_pose().
 struct ShadowBody : RigidBody {
-  btRigidBody* body = nullptr;  // null for immovable things without a velocity
+  btRigidBody* body = nullptr;  // null for things that no impulse moves: links, bare objects
   int flags = 0;                // the body's own
 
   Vec3 start_position;  // at the tick's start

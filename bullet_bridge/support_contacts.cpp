@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "bullet_bridge/body_motion.h"
 #include "bullet_bridge/conversions.h"
 
 namespace limber::bullet {
@@ -25,8 +26,6 @@ bool carries_load(const btPersistentManifold& manifold) {
   return manifold.getNumContacts() > 0 && manifold.getBody0()->hasContactResponse() &&
          manifold.getBody1()->hasContactResponse();
 }
-
-bool movable(const btCollisionObject& object) { return !object.isStaticOrKinematicObject(); }
 
 SupportContact make_contact(const btManifoldPoint& point, int a, int b, const ShadowSet& shadows) {
   SupportContact c;
@@ -182,8 +181,8 @@ std::vector<SupportContact> gather_support_contacts(btDispatcher& dispatcher, Sh
       const btCollisionObject& first = *manifold.getBody0();
       const btCollisionObject& second = *manifold.getBody1();
       // Only through bodies of the rings before this one, and never through the ground.
-      const int i = movable(first) ? shadows.find(first) : -1;
-      const int j = movable(second) ? shadows.find(second) : -1;
+      const int i = is_movable(first) ? shadows.find(first) : -1;
+      const int j = is_movable(second) ? shadows.find(second) : -1;
       if ((i < 0 || i >= known) && (j < 0 || j >= known)) continue;
       done[m] = true;
       const int a = shadows.shadow_of(first), b = shadows.shadow_of(second);

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bullet_bridge/body_motion.h"
 #include "bullet_bridge/conversions.h"
 
 namespace limber::bullet {
@@ -43,30 +44,18 @@ void collect_leaves(const btCollisionShape& shape, const btTransform& pose,
 }
 
 Vec3 velocity_at(const btCollisionObject& object, const Vec3& at) {
-  const btRigidBody* body = btRigidBody::upcast(&object);
-  if (!body) return Vec3::Zero();
-  const Vec3 arm = at - from_bullet(body->getWorldTransform().getOrigin());
-  return from_bullet(body->getLinearVelocity()) +
-         from_bullet(body->getAngularVelocity()).cross(arm);
-}
-
-double reach_of(const btCollisionObject& object) {
-  btVector3 centre;
-  btScalar radius = 0;
-  object.getCollisionShape()->getBoundingSphere(centre, radius);
-  return radius + centre.length();
+  const BodyMotion motion = motion_of(object);
+  const Vec3 arm = at - from_bullet(object.getWorldTransform().getOrigin());
+  return motion.velocity + motion.angular_velocity.cross(arm);
 }
 
 double turning_speed(const btCollisionObject& object) {
-  const btRigidBody* body = btRigidBody::upcast(&object);
-  if (!body || body->isStaticObject()) return 0.0;
-  return body->getAngularVelocity().length() * reach_of(object);
+  return largest_speed({.angular_velocity = motion_of(object).angular_velocity}, object);
 }
 
 double fall_within(const btCollisionObject& object, double dt) {
-  const btRigidBody* body = btRigidBody::upcast(&object);
-  if (!body || body->isStaticOrKinematicObject() || !body->isActive()) return 0.0;
-  return body->getGravity().length() * dt;
+  if (!is_movable(object) || !object.isActive()) return 0.0;
+  return btRigidBody::upcast(&object)->getGravity().length() * dt;
 }
 
 Closest closest_to_plane(const Leaf& convex, const Leaf& plane_leaf) {
@@ -113,8 +102,7 @@ double speed_at_contact(double approach, double gap, const btRigidBody& body) {
 }  // namespace
 
 double largest_closing_speed(const btCollisionObject& a, const btCollisionObject& b, double dt) {
-  const Vec3 relative = velocity_at(a, from_bullet(a.getWorldTransform().getOrigin())) -
-                        velocity_at(b, from_bullet(b.getWorldTransform().getOrigin()));
+  const Vec3 relative = motion_of(a).velocity - motion_of(b).velocity;
   return relative.norm() + turning_speed(a) + turning_speed(b) + fall_within(a, dt) +
          fall_within(b, dt);
 }

@@ -42,7 +42,9 @@ struct ContactPart {
     kConvex      // anything else
   };
   Kind kind = Kind::kConvex;
-  std::int32_t id = 0;               // of the part among all of the shape, the same in every tick
+  std::int64_t id = 0;               // of the part among all of the shape, the same in every tick
+  bool for_faces = false;            // points meet the triangles that it is cut out of
+  Vec3 facing = Vec3::Zero();        // then: no way in against this, in the part's frame
   Vec3 half_extents = Vec3::Zero();  // box, m
   double radius = 0.0;               // sphere, capsule, cylinder and cone without margin, m
   double half_height = 0.0;          // capsule without caps, cylinder and cone without margin, m

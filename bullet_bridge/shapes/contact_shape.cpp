@@ -45,6 +45,13 @@ struct Collector {
     if (!part || !overlap({part->low, part->high}, region)) return;
     part->id = id;
     parts.push_back(std::move(*part));
+    if (parts.back().kind == ContactPart::Kind::kTriangles) add_sharp_parts();
+  }
+
+  void add_sharp_parts() {
+    for (ContactPart& sharp : sharp_parts(parts.back(), cache)) {
+      if (overlap({sharp.low, sharp.high}, region)) parts.push_back(std::move(sharp));
+    }
   }
 
   void add_children(const btCompoundShape& compound, const btTransform& pose) {

@@ -12,10 +12,10 @@ inline namespace LIMBER_BULLET_PRECISION {
 class ShapeCache;
 
 // The parts of a shape, compounds flattened, that may be met in a tick: those that reach into the
-// box from `low` to `high` (in the frame of the shape, m), ascending by id; of meshes and height
-// fields the triangles there. To be called once a tick. Dear data (planes of hulls) come from the
-// cache. Throws SimulationError for shapes that Bullet itself cannot collide with, and for its
-// distance fields from files.
+// box from `low` to `high` (in the frame of the shape, m), in the same order in every tick; of
+// meshes and height fields the triangles there, followed by the sharp corners cut out of them. To
+// be called once a tick. Dear data (planes of hulls) come from the cache. Throws SimulationError
+// for shapes that Bullet itself cannot collide with, and for its distance fields from files.
 std::vector<ContactPart> contact_parts(const btCollisionShape& shape, const Vec3& low,
                                        const Vec3& high, ShapeCache& cache);
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -73,29 +75,53 @@ Cut cut_at(const Penetration& here, const Vec3& place, const Mat3& corners) {
   return {Vec3::Constant(level) - corners.transpose() * here.normal};
 }
 
+// m: however it moves by less, the point has the same side of the box nearest to it, or is in front
+// of it. The difference of its distances to two sides changes by at most twice its way.
+double box_side_margin(const Vec3& half_extents, const Vec3& point) {
+  const Vec3 beyond = point.cwiseAbs() - half_extents;  // m, of the sides; below 0: behind them
+  int nearest = 0;
+  const double first = beyond.maxCoeff(&nearest);
+  const double second = std::max(beyond[(nearest + 1) % 3], beyond[(nearest + 2) % 3]);
+  return std::min({std::abs(point[nearest]), -second, 0.5 * (first - second)});
+}
+
+// Of a face that has one and the same side next to its corners. 0: not known.
+double settled_way(const ContactPart& part, const Mat3& corners) {
+  if (part.kind != ContactPart::Kind::kBox) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 own = part.to_part_frame(corners.col(i));
+    least = std::min(least, box_side_margin(part.half_extents, own));
+  }
+  return std::max(0.0, least);
+}
+
 }  // namespace
 
 FacePenetration deepest_place(const ContactPart& part, const Mat3& corners, double tolerance_m) {
   std::array<Penetration, 3> at;
-  FacePenetration deepest{Vec3::UnitX(), -1e300, 0.0, 0.0};
+  FacePenetration deepest{.weights = Vec3::UnitX(), .depth = -1e300};
   for (int i = 0; i < 3; ++i) {
     at[i] = penetration(part, corners.col(i));
-    if (at[i].depth > deepest.depth) deepest = {Vec3::Unit(i), at[i].depth, 0.0, 0.0};
+    if (at[i].depth > deepest.depth) deepest = {.weights = Vec3::Unit(i), .depth = at[i].depth};
   }
   deepest.bound = deepest.corners = deepest.depth;
   // In front of one side the depth is linear: the most frequent case by far.
-  if (at[0].normal == at[1].normal && at[0].normal == at[2].normal) return deepest;
+  if (at[0].normal == at[1].normal && at[0].normal == at[2].normal) {
+    deepest.settled = settled_way(part, corners);
+    return deepest;
+  }
   DepthBound bound;
   for (int i = 0; i < 3; ++i) bound.add(cut_at(at[i], corners.col(i), corners));
   while (!bound.full() && bound.maximum().bound > deepest.depth + tolerance_m) {
     if (bound.maximum().bound <= 0.0) {
       const auto& [weights, least] = bound.maximum();
-      return {weights, least, least, deepest.corners};
+      return {weights, least, least, deepest.corners, 0.0};
     }
     const Vec3 weights = bound.maximum().weights.cwiseMax(0.0);
     const Vec3 place = corners * weights;
     const Penetration here = penetration(part, place);
-    if (here.depth > deepest.depth) deepest = {weights, here.depth, 0.0, deepest.corners};
+    if (here.depth > deepest.depth) deepest = {weights, here.depth, 0.0, deepest.corners, 0.0};
     bound.add(cut_at(here, place, corners));
   }
   deepest.bound = bound.maximum().bound;

@@ -11,6 +11,7 @@ struct FacePenetration {
   double depth = 0.0;    // m, negative outside; an upper bound when that is <= 0
   double bound = 0.0;    // m: no place of the face is deeper
   double corners = 0.0;  // m: depth of the deepest corner
+  double settled = 0.0;  // m: however the corners move by less, the deepest place is one of them
 };
 
 // Of a triangle, `corners` as columns in the frame of the whole shape, m; to `tolerance_m`. Points

@@ -39,8 +39,11 @@ std::shared_ptr<const ConvexPlanes> built(std::vector<Vec3> corners, double marg
 }  // namespace
 
 std::shared_ptr<const ConvexPlanes> ShapeCache::planes_of(const btPolyhedralConvexShape& shape) {
-  std::vector<Vec3> corners = corners_of(shape);
-  const double margin = shape.getMargin();
+  return planes_around(corners_of(shape), shape.getMargin());
+}
+
+std::shared_ptr<const ConvexPlanes> ShapeCache::planes_around(std::vector<Vec3> corners,
+                                                              double margin) {
   const std::uint64_t signature = signature_of(corners, margin);
   const auto known = std::find_if(entries_.begin(), entries_.end(),
                                   [&](const Entry& e) { return e.signature == signature; });

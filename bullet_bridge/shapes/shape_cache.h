@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <list>
 #include <memory>
+#include <vector>
 
 #include "bullet_bridge/precision.h"
+#include "core/model/vec3.h"
 
 class btPolyhedralConvexShape;
 
@@ -22,6 +24,8 @@ class ShapeCache {
 
   // Null where the shape has no volume, or no corners that it tells.
   std::shared_ptr<const ConvexPlanes> planes_of(const btPolyhedralConvexShape& shape);
+  // Around points, m, and within `margin` of them.
+  std::shared_ptr<const ConvexPlanes> planes_around(std::vector<Vec3> corners, double margin);
 
   std::size_t size() const { return entries_.size(); }
 

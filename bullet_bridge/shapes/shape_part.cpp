@@ -19,8 +19,10 @@
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/shapes/convex_planes.h"
 #include "bullet_bridge/shapes/shape_cache.h"
+#include "bullet_bridge/shapes/sharp_corners.h"
 #include "bullet_bridge/shapes/triangle_patch.h"
 #include "core/model/errors.h"
+#include "core/storage/state_hash.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -188,6 +190,14 @@ bool make_closed_form(ContactPart& part, const btCollisionShape& shape) {
   }
 }
 
+// Of what is cut out of a part: far from the numbers of parts.
+std::int64_t id_of(std::int64_t part, std::int64_t key) {
+  StateHash hash;
+  hash.add(part);
+  hash.add(key);
+  return static_cast<std::int64_t>(hash.value());
+}
+
 }  // namespace
 
 Bounds turned(const Bounds& box, const Vec3& position, const Mat3& rotation) {
@@ -226,6 +236,24 @@ std::optional<ContactPart> shape_part(const btCollisionShape& shape, const btTra
   make_triangles(part, static_cast<const btConcaveShape&>(shape), region);
   if (part.triangles->triangles().empty()) return std::nullopt;
   return part;
+}
+
+std::vector<ContactPart> sharp_parts(const ContactPart& triangles, ShapeCache& cache) {
+  std::vector<ContactPart> parts;
+  for (SharpCorner& corner : sharp_corners(*triangles.triangles)) {
+    ContactPart part = triangles;
+    part.triangles = nullptr;
+    part.hull = cache.planes_around(std::move(corner.corners), part.margin);
+    if (part.hull == nullptr) continue;  // as thin as rounding
+    part.kind = Kind::kHull;
+    part.id = id_of(triangles.id, corner.key);
+    part.for_faces = true;
+    part.facing = corner.facing;
+    set_own_bounds(part, part.hull->low().array() - part.margin,
+                   part.hull->high().array() + part.margin);
+    parts.push_back(std::move(part));
+  }
+  return parts;
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

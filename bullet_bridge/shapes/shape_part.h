@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "bullet_bridge/shapes/contact_part.h"
 
@@ -26,6 +27,9 @@ void set_bounds(ContactPart& part);
 // triangles in `region` of the whole shape. None where there is nothing to touch.
 std::optional<ContactPart> shape_part(const btCollisionShape& shape, const btTransform& pose,
                                       const Bounds& region, ShapeCache& cache);
+
+// What stands out of a part made of triangles, cut out for faces alone.
+std::vector<ContactPart> sharp_parts(const ContactPart& triangles, ShapeCache& cache);
 
 }  // namespace LIMBER_BULLET_PRECISION
 }  // namespace limber::bullet

@@ -44,6 +44,19 @@ class LowestFailure {
   std::exception_ptr failure_;
 };
 
+// In the arena.
+template <class Partitioner>
+void run_ranges(std::size_t count, std::size_t grain, const RangeBody& body,
+                const Partitioner& partitioner) {
+  const std::size_t ranges = (count + grain - 1) / grain;
+  LowestFailure failure;
+  const auto run = [&](std::size_t r) {
+    failure.guard(r, [&] { body(r * grain, std::min(count, (r + 1) * grain)); });
+  };
+  arena->execute([&] { tbb::parallel_for(std::size_t{0}, ranges, run, partitioner); });
+  failure.rethrow();
+}
+
 }  // namespace
 
 void set_threads(int count) {
@@ -62,14 +75,15 @@ void parallel_for(std::size_t count, std::size_t grain, RangeBody body) {
     body(0, count);
     return;
   }
-  const std::size_t ranges = (count + grain - 1) / grain;
-  LowestFailure failure;
-  const auto run = [&](std::size_t r) {
-    failure.guard(r, [&] { body(r * grain, std::min(count, (r + 1) * grain)); });
-  };
-  arena->execute(
-      [&] { tbb::parallel_for(std::size_t{0}, ranges, run, tbb::static_partitioner()); });
-  failure.rethrow();
+  run_ranges(count, grain, body, tbb::static_partitioner());
+}
+
+void parallel_tasks(std::size_t count, RangeBody body) {
+  if (thread_count == 1 || count <= 1) {
+    body(0, count);
+    return;
+  }
+  run_ranges(count, 1, body, tbb::simple_partitioner());
 }
 
 }  // namespace limber

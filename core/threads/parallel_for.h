@@ -32,4 +32,8 @@ class RangeBody {
 // the lowest one.
 void parallel_for(std::size_t count, std::size_t grain, RangeBody body);
 
+// The same for a few tasks of very different size, each worth 20 microseconds: one by one, to
+// whoever is free.
+void parallel_tasks(std::size_t count, RangeBody body);
+
 }  // namespace limber

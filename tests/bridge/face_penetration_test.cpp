@@ -102,5 +102,29 @@ TEST(FacePenetration, OfAFaceThatEntersWithACornerIsThatCorner) {
   EXPECT_NEAR(found.depth, 0.1, 1e-6);
 }
 
+// A face that is said to be settled may move that far without being deeper between its corners.
+TEST(FacePenetration, KeepsItsDeepestPlaceAtACornerWhileItIsSettled) {
+  std::mt19937 engine(2);
+  const ContactPart part =
+      only_part(btBoxShape(btVector3(btScalar(0.3), btScalar(0.5), btScalar(0.2))));
+  int settled = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 middle = random_face(engine, 0.6).col(0);
+    const Mat3 corners = random_face(engine, 0.1).colwise() + middle;
+    const FacePenetration found = deepest_place(part, corners, kTolerance);
+    if (found.settled == 0.0) continue;
+    ++settled;
+    for (int way = 0; way < 20; ++way) {
+      Mat3 moved = corners;
+      for (int k = 0; k < 3; ++k) {
+        moved.col(k) += 0.999 * found.settled * random_face(engine, 1.0).col(k).normalized();
+      }
+      const FacePenetration then = deepest_place(part, moved, 1e-9);
+      ASSERT_EQ(then.depth, then.corners);
+    }
+  }
+  EXPECT_GT(settled, 1000);
+}
+
 }  // namespace
 }  // namespace limber::bullet::test

@@ -45,8 +45,8 @@ class SubstepReference : public SubstepCoupling {
     for (std::size_t i = 0; i < obstacles_.size(); ++i) {
       btRigidBody& body = *world_.bodies()[i];
       ShadowBody shadow = make_shadow(body);
-      if (list_now) obstacles_[i].list(lattice, surface_, shadow, reach);
-      obstacles_[i].press(lattice, surface_, shadow, dt);
+      if (list_now) obstacles_[i].list(lattice, surface_, shadow, reach, dt);
+      obstacles_[i].press(lattice, surface_, shadow, all_pairs(obstacles_[i]), dt);
       if (!shadow.touched) continue;
       body.applyCentralImpulse(to_bullet(Vec3(shadow.force * dt)));
       body.applyTorqueImpulse(to_bullet(Vec3(shadow.torque * dt)));
@@ -56,6 +56,13 @@ class SubstepReference : public SubstepCoupling {
 
  private:
   static constexpr int kListInterval = 8;
+
+  ObstacleShare all_pairs(const Obstacle& obstacle) const {
+    const std::vector<std::int32_t> one_piece(lattice_.motion.size(), 0), one_share(1, 0);
+    std::vector<ObstacleShare> shares(1);
+    obstacle.share_out(one_piece, one_share, shares);
+    return shares[0];
+  }
 
   World& world_;
   Lattice lattice_;

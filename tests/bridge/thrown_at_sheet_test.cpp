@@ -1,16 +1,14 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <memory>
 #include <ostream>
 #include <string>
 #include <utility>
 
-#include "core/modeller/sheet.h"
-#include "core/modeller/thin_material.h"
 #include "tests/bridge/measure.h"
 #include "tests/bridge/models.h"
+#include "tests/bridge/sheets.h"
 #include "tests/bridge/world.h"
 
 // Balls against a sheet with cells of 10 cm, of points and of faces, from both its sides.
@@ -22,38 +20,14 @@ constexpr int kCells = 8;
 constexpr double kSide = 0.8;    // m
 constexpr double kSpeed = 10.0;  // m/s
 
-// 1 kg/m^2, 100 kN/m, horizontal at y = 0, pinned along its border.
+// Pinned along its border.
 PhysicalModel pinned_sheet() {
-  constexpr double kThickness = 0.005;  // m
-  Material material;
-  material.density = 1.0 / kThickness;
-  material.youngs_modulus = 1e5 / kThickness;
-  material.strain_at_break = kUnbreakable;
-  const auto flat = [](double u, double v) -> Vec3 { return kSide * Vec3(u - 0.5, 0.0, 0.5 - v); };
-  PhysicalModel model =
-      with_sheet_material(sheet(flat, {kCells, kCells, SheetCells::kSquares}, "sheet"), "sheet",
-                          material, {.thickness = kThickness});
+  PhysicalModel model = level_sheet(kCells, kSide);
   for (PointId p : ids_of(model.points)) {
     const double out = model.geometry.points[p].cwiseAbs().maxCoeff();
     model.points[p].pinned = out > 0.5 * kSide - 1e-9;
   }
   return model;
-}
-
-// m, of the sheet at x and z: of the face that is there, none of which stands upright.
-double height_at(const PhysicalModel& sheet, double x, double z) {
-  for (const Face& face : sheet.geometry.faces) {
-    Mat3 corners;  // (x, 1, z) of each, as columns
-    Vec3 heights;
-    for (int i = 0; i < 3; ++i) {
-      corners.col(i) = sheet.geometry.points[face.corners[i]];
-      heights[i] = std::exchange(corners(1, i), 1.0);
-    }
-    const Vec3 weights = corners.inverse() * Vec3(x, 1.0, z);
-    if (weights.minCoeff() >= -1e-9) return weights.dot(heights);
-  }
-  ADD_FAILURE() << "beside the sheet";
-  return 0.0;
 }
 
 struct Throw {
