@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/contact/piece_boxes.h"
 #include "core/contact/point_grid.h"
@@ -27,17 +29,55 @@ PenaltyContact law_between(const LatticeObject& a, const LatticeObject& b) {
   return law;
 }
 
-// N, along the unit normal from a to b. What implicit springs do to a speed is not foreseen: their
-// points go by the present one.
-double normal_force(const Lattice& lattice, const PointContacts::Pair& pair, double depth,
-                    const Vec3& normal, double dt) {
-  if (is_implicit(lattice, pair.a) || is_implicit(lattice, pair.b)) {
-    const Vec3 w = lattice.motion[pair.b].velocity - lattice.motion[pair.a].velocity;
-    return penalty_force(pair.law, pair.reduced_mass, depth, w.dot(normal));
-  }
-  const Vec3 w = velocity_after(lattice, pair.b, dt) - velocity_after(lattice, pair.a, dt);
-  return bearing_force(pair.law, pair.reduced_mass, depth, w.dot(normal), dt / pair.reduced_mass,
-                       dt);
+// Two points that touch.
+struct Touch {
+  double depth = 0.0;  // m
+  Vec3 normal;         // unit, from a to b
+};
+
+std::optional<Touch> touch_of(const Lattice& lattice, const PointContacts::Pair& pair) {
+  const Vec3 d = lattice.motion[pair.b].position - lattice.motion[pair.a].position;
+  const double squared = d.squaredNorm();
+  if (squared >= pair.contact_distance * pair.contact_distance || squared == 0.0) return {};
+  const double distance = std::sqrt(squared);
+  return Touch{pair.contact_distance - distance, d / distance};
+}
+
+void push_apart(Lattice& lattice, const PointContacts::Pair& pair, const Vec3& force) {
+  lattice.force[pair.b] += force;
+  lattice.force[pair.a] -= force;
+  lattice.touched[pair.a] = lattice.touched[pair.b] = 1;
+}
+
+void press(Lattice& lattice, const PointContacts::Pair& pair) {
+  const std::optional<Touch> touch = touch_of(lattice, pair);
+  if (!touch) return;
+  const Vec3 w = lattice.motion[pair.b].velocity - lattice.motion[pair.a].velocity;
+  push_apart(lattice, pair,
+             penalty_force(pair.law, pair.reduced_mass, touch->depth, w.dot(touch->normal)) *
+                 touch->normal);
+}
+
+// 1/kg. A body that carries a point weighs more than that.
+double mobility(const Lattice& lattice, std::int32_t p) {
+  return lattice.role[p] == PointRole::kDynamic ? lattice.inverse_mass[p] : 0.0;
+}
+
+void bear(Lattice& lattice, PointContacts::Pair& pair, double dt) {
+  if (is_implicit(lattice, pair.a) || is_implicit(lattice, pair.b)) return press(lattice, pair);
+  const std::optional<Touch> touch = touch_of(lattice, pair);
+  const bool bore = std::exchange(pair.bears, touch.has_value());
+  if (!touch) return;
+  const Vec3& n = touch->normal;
+  const double now = (lattice.motion[pair.b].velocity - lattice.motion[pair.a].velocity).dot(n);
+  const double surprise = bore ? now - pair.expected : 0.0;
+  const double foreseen =
+      (velocity_after(lattice, pair.b, dt) - velocity_after(lattice, pair.a, dt)).dot(n);
+  const double gain = dt * (mobility(lattice, pair.a) + mobility(lattice, pair.b));
+  const double push =
+      bearing_force(pair.law, pair.reduced_mass, touch->depth, foreseen + surprise, gain, dt);
+  pair.expected = foreseen + push * gain;
+  push_apart(lattice, pair, push * n);
 }
 
 // Refreshes between two looks at how far pieces have deformed.
@@ -204,50 +244,46 @@ PointContacts::Pair PointContacts::make_pair(const Lattice& lattice, std::int32_
   Pair pair;
   pair.a = p;
   pair.b = q;
-  pair.contact_distance = eased_contact_distance(lattice, p, q, distance);
+  const Pair* then = known(p, q);
+  pair.contact_distance = eased_contact_distance(lattice, then, p, q, distance);
+  if (then) {
+    pair.expected = then->expected;
+    pair.bears = then->bears;
+  }
   pair.reduced_mass = lattice.mass[p] * lattice.mass[q] / (lattice.mass[p] + lattice.mass[q]);
   pair.law = law_between(lattice.objects[object_p], lattice.objects[object_q]);
   return pair;
 }
 
+const PointContacts::Pair* PointContacts::known(std::int32_t p, std::int32_t q) const {
+  for (const Pairs* old : {&old_between_, &old_within_, &within_}) {
+    const auto found = std::lower_bound(
+        old->begin(), old->end(), std::pair(p, q),
+        [](const Pair& pair, const auto& key) { return std::pair(pair.a, pair.b) < key; });
+    if (found != old->end() && found->a == p && found->b == q) return &*found;
+  }
+  return nullptr;
+}
+
 // A pair that is listed for the first time while it overlaps (a piece thawed inside another one)
 // starts without force: its contact distance is what it finds, and grows back as the two separate.
-double PointContacts::eased_contact_distance(const Lattice& lattice, std::int32_t p, std::int32_t q,
+double PointContacts::eased_contact_distance(const Lattice& lattice, const Pair* then,
+                                             std::int32_t p, std::int32_t q,
                                              double contact_distance) const {
   const double now = (lattice.motion[q].position - lattice.motion[p].position).norm();
   if (now >= contact_distance) return contact_distance;
-  for (const Pairs* old : {&old_between_, &old_within_, &within_}) {
-    const auto known = std::lower_bound(
-        old->begin(), old->end(), std::pair(p, q),
-        [](const Pair& pair, const auto& key) { return std::pair(pair.a, pair.b) < key; });
-    if (known == old->end() || known->a != p || known->b != q) continue;
-    return std::max(known->contact_distance, now);
+  return then ? std::max(then->contact_distance, now) : now;
+}
+
+void PointContacts::add_forces(Lattice& lattice) const {
+  for (const Pairs* pairs : {&between_, &within_, &fresh_}) {
+    for (const Pair& pair : *pairs) press(lattice, pair);
   }
-  return now;
 }
 
-void PointContacts::add_forces(Lattice& lattice, double dt) const {
-  add_forces_of(between_, lattice, dt);
-  add_forces_of(within_, lattice, dt);
-  add_forces_of(fresh_, lattice, dt);
-}
-
-// One pair after the other, each by what those before it have done: together they damp what they
-// press no more than one of them would, however many share a point.
-void PointContacts::add_forces_of(const Pairs& pairs, Lattice& lattice, double dt) const {
-  for (const Pair& pair : pairs) {
-    const PointMotion& a = lattice.motion[pair.a];
-    const PointMotion& b = lattice.motion[pair.b];
-    const Vec3 d = b.position - a.position;
-    const double squared = d.squaredNorm();
-    if (squared >= pair.contact_distance * pair.contact_distance || squared == 0.0) continue;
-    const double distance = std::sqrt(squared);
-    const Vec3 normal = d / distance;
-    const double push =
-        normal_force(lattice, pair, pair.contact_distance - distance, normal, dt);
-    lattice.force[pair.b] += push * normal;
-    lattice.force[pair.a] -= push * normal;
-    lattice.touched[pair.a] = lattice.touched[pair.b] = 1;
+void PointContacts::bear(Lattice& lattice, double dt) {
+  for (Pairs* pairs : {&between_, &within_, &fresh_}) {
+    for (Pair& pair : *pairs) limber::bear(lattice, pair, dt);
   }
 }
 

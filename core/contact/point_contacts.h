@@ -33,15 +33,23 @@ class PointContacts {
   // near, of one piece, or joined. Where one did, refresh() has to follow.
   void edges_broken(const Lattice& lattice, std::span<const std::int32_t> edges);
 
-  // Adds the forces of all listed pairs to lattice.force, which has to hold all others that are
-  // known. Once a substep of dt, s.
-  void add_forces(Lattice& lattice, double dt) const;
+  // Adds the forces of all listed pairs to lattice.force, by what points do just now
+  // (penalty_force(): it has two values at rest).
+  void add_forces(Lattice& lattice) const;
+
+  // The same for contacts that bear loads (bearing_force()), once a substep of dt, s. lattice.force
+  // has to hold all other forces that are known; one pair after the other goes by what those before
+  // it have done, and by what surprised it in the substep before. What implicit springs do to a
+  // speed is not foreseen: their points are pressed as by add_forces().
+  void bear(Lattice& lattice, double dt);
 
   struct Pair {
     std::int32_t a, b;        // a < b
     double contact_distance;  // m
     double reduced_mass;      // kg
     PenaltyContact law;
+    double expected = 0.0;  // m/s: separation speed after the last substep, as foreseen
+    bool bears = false;     // it did press in that
   };
   using Pairs = std::vector<Pair>;  // ascending by (a, b)
 
@@ -68,9 +76,9 @@ class PointContacts {
                    Accept accept) const;
   std::vector<std::int32_t> points_near_other_pieces(const Lattice& lattice) const;
   Pair make_pair(const Lattice& lattice, std::int32_t p, std::int32_t q) const;
-  double eased_contact_distance(const Lattice& lattice, std::int32_t p, std::int32_t q,
-                                double contact_distance) const;
-  void add_forces_of(const Pairs& pairs, Lattice& lattice, double dt) const;
+  double eased_contact_distance(const Lattice& lattice, const Pair* then, std::int32_t p,
+                                std::int32_t q, double contact_distance) const;
+  const Pair* known(std::int32_t p, std::int32_t q) const;
 
   Pairs between_, within_;
   // Within pieces too, in order of breaking: inserted one by one they would cost the whole list

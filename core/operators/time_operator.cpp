@@ -194,7 +194,11 @@ void TimeOperator::sum_forces(const Environment& environment, double time, doubl
     lattice_.force[lattice_.dynamic_points[i]] += coupling_force_[i];
   }
   // Contacts go by all the others.
-  contacts_.add_forces(lattice_, dt);
+  if (is_symplectic()) {
+    contacts_.bear(lattice_, dt);
+  } else {
+    contacts_.add_forces(lattice_);
+  }
   surface_contacts_.add_forces(lattice_, dt);
   supports_ = {};
   if (!environment.ground) return;

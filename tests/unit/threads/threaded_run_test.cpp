@@ -36,7 +36,7 @@ Lattice start() {
   for (PointMotion& m : lattice.motion) m.position += test::random_vector(random, 0.05 * kSpacing);
   test::shake(lattice, 4, 0.02);
   for (std::int32_t p = 0; p < lattice.objects[0].points.end; ++p) {
-    lattice.motion[p].velocity.x() += 0.5;  // into the other cube
+    lattice.motion[p].velocity.x() += 0.6;  // into the other cube
   }
   return lattice;
 }
