@@ -39,7 +39,9 @@ double largest_speed(const ShadowBody& body, const btCollisionObject& object) {
 
 void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTracker& boundary,
                                std::span<const NearBody> near,
-                               std::span<const CarriedPiece> carried, double tick) {
+                               std::span<const CarriedPiece> carried, Gravity gravity,
+                               double tick) {
+  gravity_ = gravity;
   shadows_.next_tick();
   boundary_ = &boundary;
   surface_ = {};  // other points may have become flexible
@@ -65,6 +67,19 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTra
   supports_ = group_support_contacts(contacts, shadows_);
   supported_.assign(static_cast<std::size_t>(shadows_.size()), false);
   for (const SupportContact& c : contacts) supported_[c.a] = supported_[c.b] = true;
+  if (gravity_ == Gravity::kToCome) return;
+  for (int i = 0; i < shadows_.size(); ++i) {
+    if (!supported_[i]) shadows_[i].velocity -= gravity_of(shadows_[i]) * tick;  // it falls anew
+  }
+}
+
+void ContactSolver::take_over(ContactSolver&& other) {
+  for (Obstacle& theirs : other.obstacles_) {
+    const auto same = [&](const Obstacle& mine) { return &mine.object() == &theirs.object(); };
+    if (std::none_of(obstacles_.begin(), obstacles_.end(), same)) {
+      obstacles_.push_back(std::move(theirs));
+    }
+  }
 }
 
 void ContactSolver::add_forces(Lattice& lattice, double dt) {
@@ -143,7 +158,8 @@ void ContactSolver::write_velocities(btDiscreteDynamicsWorld& world, double tick
     if (!body.body->isActive() && !body.moves()) continue;
     wake(world, *body.body);
     // Bullet is about to add this tick's gravity, which an airborne shadow has had already.
-    const Vec3 fall = supported_[i] ? Vec3(Vec3::Zero()) : Vec3(gravity_of(body) * tick);
+    const bool once = supported_[i] || gravity_ == Gravity::kGiven;
+    const Vec3 fall = once ? Vec3(Vec3::Zero()) : Vec3(gravity_of(body) * tick);
     write_velocity(body, body.velocity - fall);
   }
 }
