@@ -2,6 +2,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "bullet_bridge/co_simulation_impl.h"
@@ -12,29 +13,56 @@
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
+namespace {
+
+// N s, sum of the magnitudes at its points.
+double impulse_of(const btPersistentManifold& manifold) {
+  double impulse = 0.0;
+  for (int c = 0; c < manifold.getNumContacts(); ++c) {
+    impulse += manifold.getContactPoint(c).getAppliedImpulse();
+  }
+  return impulse;
+}
+
+}  // namespace
 
 void CoSimulation::Impl::after_solve(double dt) {
   if (!failure_) take_joints(dt);
-  for (const auto& piece : pieces_) {
-    if (piece->proxy) piece->proxy->impulse = 0.0;
+  read_contacts();
+  for (Piece* piece : flexible_pieces()) piece->joint_load = 0.0;
+  joint_loads_.end();
+  if (failure_ || !switching() || pieces_.empty()) return;
+  try {
+    catch_up_with_deflected(dt);
+  } catch (const SimulationError& error) {
+    failure_ = error.diagnostic;
   }
+}
+
+// Sleeping proxies keep what they bore when they fell asleep.
+void CoSimulation::Impl::read_contacts() {
+  for (Piece* piece : index_.awake()) {
+    piece->joint_load = 0.0;
+    if (!piece->flexible()) piece->proxy->impulse = 0.0;
+  }
+  if (index_.awake().empty()) return;
   btDispatcher& dispatcher = *world_.getDispatcher();
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
-    double impulse = 0.0;
-    for (int c = 0; c < manifold.getNumContacts(); ++c) {
-      impulse += manifold.getContactPoint(c).getAppliedImpulse();
-    }
-    for (const btCollisionObject* body : {manifold.getBody0(), manifold.getBody1()}) {
-      const auto found = piece_of_.find(body);
-      if (found != piece_of_.end()) found->second->proxy->impulse += impulse;
-    }
+    if (!manifold.getBody0()->isActive() && !manifold.getBody1()->isActive()) continue;
+    Piece* a = index_.rigid(*manifold.getBody0());
+    Piece* b = index_.rigid(*manifold.getBody1());
+    if (!a && !b) continue;
+    const double impulse = impulse_of(manifold);
+    if (a) a->proxy->impulse += impulse;
+    if (b) b->proxy->impulse += impulse;
   }
 }
 
 void CoSimulation::Impl::after_move(double dt) {
   if (failure_) return;
   if (stepped_lattice_) contacts_.correct_poses(dt);
+  if (stepped_late_) late_contacts_.correct_poses(dt);
   fly_free_proxies(dt);
   time_ += dt;
   if (stepped_lattice_) split_broken_pieces();
@@ -46,11 +74,12 @@ void CoSimulation::Impl::after_move(double dt) {
 }
 
 void CoSimulation::Impl::fly_free_proxies(double dt) {
-  for (const auto& piece : pieces_) {
-    if (!piece->proxy || piece->proxy->impulse > 0.0) continue;
+  for (Piece* piece : index_.awake()) {
+    if (piece->flexible() || piece->proxy->impulse > 0.0) continue;
     btRigidBody& body = piece->proxy->body();
     if (!body.isActive() || jointed(*piece)) continue;
     if (stepped_lattice_ && contacts_.touched(body)) continue;
+    if (stepped_late_ && late_contacts_.touched(body)) continue;
     piece->proxy->fly(dt);
   }
 }
@@ -108,6 +137,7 @@ Piece& CoSimulation::Impl::add_piece(std::size_t object, std::vector<std::int32_
   piece->points = std::move(points);
   measure(*piece, lattice_);
   pieces_.push_back(std::move(piece));
+  index_.pieces_changed();
   return *pieces_.back();
 }
 
@@ -123,6 +153,7 @@ void CoSimulation::Impl::split_broken_pieces() {
     piece->points.clear();
   }
   std::erase_if(pieces_, [](const auto& piece) { return piece->points.empty(); });
+  index_.pieces_changed();
   roles_stale_ = true;
 }
 
@@ -179,6 +210,7 @@ Numbers CoSimulation::Impl::numbers_of(const Piece& piece, const Calmness& seen)
 }
 
 void CoSimulation::Impl::freeze_calm_pieces(double dt) {
+  if (stepped_late_) contacts_.take_over(std::exchange(late_contacts_, {}));
   const std::vector<std::uint8_t> yielding = contacts_.yielding_points(lattice_);
   const auto yields = [&](std::int32_t p) { return yielding[p] != 0; };
   for (Piece* piece : flexible_pieces()) {
@@ -213,7 +245,8 @@ void CoSimulation::Impl::note_carried_load(Piece& piece) const {
       environment_.air ? proxy.air_force(*environment_.air, time_) : Vec3(Vec3::Zero());
   piece.air_load = piece.carried_air;
   piece.carried_load = contact_load(lattice_, piece.points, from_bullet(world_.getGravity()),
-                                    proxy.to_world(piece.carried_air));
+                                    proxy.to_world(piece.carried_air)) +
+                       piece.joint_load;
   piece.sustained_load = piece.carried_load;
 }
 
@@ -221,7 +254,7 @@ void CoSimulation::Impl::freeze_piece(Piece& piece, const std::string& cause, Nu
   const HandOver books = freeze(world_, lattice_, piece.points, piece.proxy,
                                 piece.seen ? piece.seen->shared_body() : nullptr);
   piece.seen.reset();
-  piece_of_[&piece.proxy->body()] = &piece;
+  index_.pieces_changed();
   piece.stored_J = books.elastic_J;
   counters_.stored_J += piece.stored_J;
   ++counters_.to_rigid;
@@ -233,14 +266,16 @@ void CoSimulation::Impl::freeze_piece(Piece& piece, const std::string& cause, Nu
 void CoSimulation::Impl::step_debris(double dt) {
   if (debris_.size() == 0) return;
   std::unordered_set<const btCollisionObject*> proxies;
-  for (const auto& [body, piece] : piece_of_) proxies.insert(body);
+  for (const auto& piece : pieces_) {
+    if (!piece->flexible()) proxies.insert(&piece->body());
+  }
   counters_.retired_mass += debris_.step(world_, lattice_, proxies, dt, settings_.debris_lifetime);
 }
 
 void CoSimulation::Impl::count_time(double dt) {
-  for (const auto& piece : pieces_) {
-    counters_.mass_seconds += piece->strength.mass * dt;
-    if (piece->flexible()) counters_.flexible_mass_seconds += piece->strength.mass * dt;
+  counters_.mass_seconds += index_.mass(pieces_) * dt;
+  for (const Piece* piece : flexible_pieces()) {
+    counters_.flexible_mass_seconds += piece->strength.mass * dt;
   }
 }
 

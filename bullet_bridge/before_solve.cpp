@@ -24,30 +24,20 @@ double mass_of(const btCollisionObject& object) {
   return inverse > 0 ? 1.0 / inverse : kUnbreakable;
 }
 
-// By groups, masks and the game's own filter.
-bool may_meet(btDiscreteDynamicsWorld& world, const btCollisionObject& a,
-              const btCollisionObject& b) {
-  const auto handle = [](const btCollisionObject& object) {
-    return const_cast<btBroadphaseProxy*>(object.getBroadphaseHandle());
-  };
-  return world.getPairCache()->needsBroadphaseCollision(handle(a), handle(b));
-}
-
 }  // namespace
 
 void CoSimulation::Impl::before_solve(double dt) {
   if (failure_) return;
-  stepped_lattice_ = false;
+  stepped_lattice_ = stepped_late_ = false;
   broken_in_tick_ = 0;
   break_points_.clear();
   tick_ = dt;
   thawed_in_tick_ = false;
   jointed_ = jointed_bodies(world_);
   sweeping_ = sweeping_bodies(world_, dt);
+  index_.begin_tick(pieces_, world_);
   for (Piece* piece : flexible_pieces()) take_changes_of_game(*piece, dt);
-  for (const auto& piece : pieces_) {
-    if (piece->proxy) piece->proxy->remember();
-  }
+  for (Piece* piece : index_.awake()) piece->proxy->remember();
   try {
     if (switching()) {
       thaw_what_will_be_hit(dt);
@@ -57,24 +47,24 @@ void CoSimulation::Impl::before_solve(double dt) {
     blow_on_proxies(dt);
     step_lattices(dt);
     show_velocities(dt);
+    joint_loads_.begin(world_, index_);
   } catch (const SimulationError& error) {
     failure_ = error.diagnostic;
   }
 }
 
 void CoSimulation::Impl::thaw_what_will_be_hit(double dt) {
-  for (const auto& piece : pieces_) {
-    if (piece->proxy) judge_impulse(*piece, dt);
-  }
+  const double share = averaging_share(dt, settings_.switching.load_time);
+  // A body at rest receives m g dt a tick, and as much again when its contacts chatter.
+  const double weight = 2.0 * world_.getGravity().length() * dt;
+  for (Piece* piece : index_.awake()) judge_impulse(*piece, dt, share, weight);
   const btBroadphasePairArray& pairs = world_.getPairCache()->getOverlappingPairArray();
   for (int i = 0; i < pairs.size(); ++i) {
     const auto* a = static_cast<const btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject);
     const auto* b = static_cast<const btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject);
-    if (!a->hasContactResponse() || !b->hasContactResponse()) continue;
-    if (stands_for_lattice(*a) || stands_for_lattice(*b)) continue;
-    const auto piece_a = piece_of_.find(a), piece_b = piece_of_.find(b);
-    if (piece_a != piece_of_.end()) consider_touch(*piece_a->second, *b, dt);
-    if (piece_b != piece_of_.end()) consider_touch(*piece_b->second, *a, dt);
+    if (!a->isActive() && !b->isActive()) continue;
+    if (Piece* piece = index_.rigid(*a)) consider_pair(*piece, *b, dt);
+    if (Piece* piece = index_.rigid(*b)) consider_pair(*piece, *a, dt);
   }
   for (const NearBody& mover : sweeping_) consider_sweep(mover, dt);
 }
@@ -82,22 +72,27 @@ void CoSimulation::Impl::thaw_what_will_be_hit(double dt) {
 // Bullet pairs what sweeps through the world with proxies only when it has reached them.
 void CoSimulation::Impl::consider_sweep(const NearBody& mover, double dt) {
   for (const btCollisionObject* met : bodies_in(world_, mover.low, mover.high)) {
-    const auto piece = piece_of_.find(met);
-    if (piece == piece_of_.end() || !may_meet(world_, *mover.object, *met)) continue;
-    consider_touch(*piece->second, *mover.object, dt);
+    Piece* piece = index_.rigid(*met);
+    if (piece && may_meet(world_, *mover.object, *met)) consider_touch(*piece, *mover.object, dt);
   }
 }
 
+void CoSimulation::Impl::consider_pair(Piece& piece, const btCollisionObject& other, double dt) {
+  if (!piece.body().hasContactResponse() || !other.hasContactResponse()) return;
+  if (!stands_for_lattice(other)) consider_touch(piece, other, dt);
+}
+
 void CoSimulation::Impl::consider_touch(Piece& piece, const btCollisionObject& other, double dt) {
-  if (piece.flexible()) return;
   const double limit = flexible_strain(piece.strength, settings_.switching);
-  const double partner = mass_of(other);
   const btRigidBody& body = piece.proxy->body();
   // Most pairs rest on one another: a bound on the speed spares them the exact query.
-  const double bound = largest_closing_speed(body, other, dt);
+  const double bound = largest_closing_speed(body, piece.proxy->reach(), other, dt);
+  if (bound <= limit * piece.strength.wave_speed) return;
+  const double partner = mass_of(other);
   if (impact_strain(piece.strength, bound, partner) <= limit) return;
-  const std::optional<PredictedTouch> touch = predict_touch(body, other, dt);
+  std::optional<PredictedTouch> touch = predict_touch(body, other, dt);
   if (!touch) return;
+  if (touch->time == 0.0) swing_round(piece, other, *touch, dt);
   const double strain = impact_strain(piece.strength, touch->closing_speed, partner);
   if (strain <= limit || !material_meets(piece, other, limit, *touch, dt)) return;
   thaw_piece(piece, "touch",
@@ -107,43 +102,53 @@ void CoSimulation::Impl::consider_touch(Piece& piece, const btCollisionObject& o
               {"limit_strain", limit}});
 }
 
-// Hulls are larger than the material in them, and the prediction allows for turning: do points
-// really meet within the tick? Where only the hulls of two proxies do, Bullet is told to let them
-// pass.
+// Where two bodies touch already, at an edge it turns about, say, the shortest distance does not
+// tell what else is about to strike: points do.
+void CoSimulation::Impl::swing_round(const Piece& piece, const btCollisionObject& other,
+                                     PredictedTouch& touch, double dt) {
+  if (index_.rigid(other)) return;  // material_meets() goes by points alone
+  const std::optional<double> speed =
+      reaching_speed(piece.proxy->body(), piece.proxy->local(), other, 0.0, dt, shapes_);
+  touch.closing_speed = std::max(touch.closing_speed, speed.value_or(0.0));
+}
+
+// Hulls are larger than the material in them: does it really meet within the tick? Faces reach
+// farther than the points at their corners. Where only the hulls of two proxies meet, Bullet is
+// told to let them pass.
 bool CoSimulation::Impl::material_meets(Piece& piece, const btCollisionObject& other, double limit,
                                         const PredictedTouch& touch, double dt) {
-  const auto partner = piece_of_.find(&other);
-  if (partner == piece_of_.end()) {
-    return touch.gap <= 0.0 || !other.getCollisionShape()->isConvex() ||
-           points_reach(piece.proxy->body(), piece.proxy->local(), other, dt, shapes_);
+  const Piece* partner = index_.rigid(other);
+  if (!partner) {
+    return touch.gap <= 0.0 || reaching_speed(piece.proxy->body(), piece.proxy->local(), other,
+                                              piece.face_reach, dt, shapes_);
   }
   piece.proxy->write_points(lattice_, piece.points);
-  partner->second->proxy->write_points(lattice_, partner->second->points);
-  const double closing = closing_speed(lattice_, piece.points, partner->second->points, dt);
+  partner->proxy->write_points(lattice_, partner->points);
+  const double closing = closing_speed(lattice_, piece.points, partner->points, dt);
   if (impact_strain(piece.strength, closing, mass_of(other)) > limit) return true;
   passing_.emplace_back(&piece.proxy->body(), &other);
   return false;
 }
 
-// What no prediction foresaw, and what builds up slowly: the impulses of the last tick, and the
-// air. What both did when it became rigid is in its shape already; more strains it, less relaxes
-// it.
-void CoSimulation::Impl::judge_impulse(Piece& piece, double dt) {
-  const double impulse = piece.proxy->impulse;
+// What no prediction foresaw, and what builds up slowly: the impulses of the last tick, of contacts
+// and of the game's constraints, and the air. What they did when it became rigid is in its shape
+// already; more strains it, less relaxes it. `share`: of this tick in the average; `weight`:
+// impulse per mass that strains nothing, N s/kg.
+void CoSimulation::Impl::judge_impulse(Piece& piece, double dt, double share, double weight) {
+  const double contacts = piece.proxy->impulse;
+  const double impulse = contacts + piece.joint_load * dt;
   const double limit = flexible_strain(piece.strength, settings_.switching);
-  piece.sustained_load =
-      averaged_load(piece.sustained_load, impulse / dt, dt, settings_.switching.load_time);
+  piece.sustained_load += (impulse / dt - piece.sustained_load) * share;
   const double change = std::abs(piece.sustained_load - piece.carried_load) +
                         (piece.air_load - piece.carried_air).norm();
   const double sustained = sustained_strain(piece.strength, change, piece.size);
-  // A body at rest receives m g dt a tick, and as much again when its contacts chatter.
-  const double weight = 2.0 * world_.getGravity().length() * dt;
-  const double jump = std::max(0.0, impulse / piece.strength.mass - weight);
+  const double jump = std::abs(impulse - piece.carried_load * dt) / piece.strength.mass - weight;
   const double sudden = impact_strain(piece.strength, jump, kUnbreakable);
   if (std::max(sustained, sudden) <= limit) return;
-  if (sudden > limit) ++counters_.missed;
+  const bool missed = sudden > limit && contacts >= piece.joint_load * dt;
+  if (missed) ++counters_.missed;
   thaw_piece(
-      piece, sudden > limit ? "missed touch" : "sustained load",
+      piece, missed ? "missed touch" : "sustained load",
       {{"impulse_N_s", impulse}, {"strain", std::max(sustained, sudden)}, {"limit_strain", limit}});
 }
 
@@ -153,8 +158,8 @@ void CoSimulation::Impl::thaw_what_lattices_hit(double dt) {
     before = flexible_pieces().size();
     for (Piece* flexible : flexible_pieces()) {
       for (const NearBody& body : bodies_near(*flexible, dt)) {
-        const auto found = piece_of_.find(body.object);
-        if (found != piece_of_.end()) consider_lattice_hit(*flexible, *found->second, dt);
+        Piece* proxy = index_.rigid(*body.object);
+        if (proxy) consider_lattice_hit(*flexible, *proxy, dt);
       }
     }
     now = flexible_pieces().size();
@@ -182,6 +187,9 @@ void CoSimulation::Impl::consider_lattice_hit(const Piece& flexible, Piece& piec
 
 // A proxy feels the wind that its lattice would.
 void CoSimulation::Impl::blow_on_proxies(double dt) {
+  const bool still = !environment_.air && !air_before_;
+  air_before_ = environment_.air.has_value();
+  if (still) return;
   for (const auto& piece : pieces_) {
     if (!piece->proxy || !piece->proxy->feels_air()) continue;
     piece->air_load = environment_.air ? blow_on(*piece, dt) : Vec3(Vec3::Zero());
@@ -198,11 +206,17 @@ Vec3 CoSimulation::Impl::blow_on(const Piece& piece, double dt) {
     const double weight = piece.strength.mass * world_.getGravity().length();
     if (force.norm() > kWakingShare * weight) wake(world_, proxy.body());
     if (!proxy.body().isActive()) return force;
+    proxy.remember();
   }
   return proxy.feel_air(*environment_.air, time_, dt);
 }
 
 void CoSimulation::Impl::thaw_piece(Piece& piece, const std::string& cause, Numbers numbers) {
+  if (thawing_late_) {
+    numbers.emplace_back("deflected", 1.0);
+    btRigidBody& body = piece.proxy->body();  // the lattice falls by itself
+    body.setLinearVelocity(body.getLinearVelocity() - body.getGravity() * btScalar(tick_));
+  }
   const HandOver books = thaw(lattice_, piece.points, *piece.proxy);
   switches_.push_back({time_, piece.object, piece.id, cause, std::move(numbers), books});
   ++counters_.to_flexible;
@@ -211,11 +225,11 @@ void CoSimulation::Impl::thaw_piece(Piece& piece, const std::string& cause, Numb
   piece.calm_ticks = 0;
   piece.touched = false;
   set_role(piece, PointRole::kDynamic);
-  piece_of_.erase(&piece.proxy->body());
   piece.seen =
       std::make_unique<LatticeBody>(lattice_, boundary_, piece.points, std::move(piece.proxy));
+  index_.pieces_changed();
   thawed_in_tick_ = true;
-  take_changes_of_game(piece, tick_);  // forces that Bullet has not given it yet
+  if (!thawing_late_) take_changes_of_game(piece, tick_);  // forces that Bullet has not given yet
 }
 
 // Contacts of bodies that are lattices now, and of hulls that may pass.
@@ -241,14 +255,6 @@ void CoSimulation::Impl::clear_unwanted_manifolds() {
 void CoSimulation::Impl::set_role(const Piece& piece, PointRole role) {
   for (std::int32_t p : piece.points) lattice_.role[p] = role;
   roles_stale_ = true;
-}
-
-std::vector<Piece*> CoSimulation::Impl::flexible_pieces() const {
-  std::vector<Piece*> flexible;
-  for (const auto& piece : pieces_) {
-    if (piece->flexible()) flexible.push_back(piece.get());
-  }
-  return flexible;
 }
 
 void CoSimulation::Impl::refresh_roles(const std::vector<Piece*>& carried) {
@@ -301,11 +307,11 @@ CoSimulation::Impl::Surroundings CoSimulation::Impl::surroundings_of(
   }
   Surroundings surroundings;
   for (const NearBody& body : merged(std::move(near))) {
-    const auto found = piece_of_.find(body.object);
-    if (found == piece_of_.end()) {
-      surroundings.bodies.push_back(body);
+    Piece* proxy = index_.rigid(*body.object);
+    if (proxy) {
+      surroundings.carried.push_back(proxy);
     } else {
-      surroundings.carried.push_back(found->second);
+      surroundings.bodies.push_back(body);
     }
   }
   return surroundings;
@@ -349,27 +355,32 @@ void CoSimulation::Impl::step_lattices(double dt) {
     loads_.clear();
     return contacts_.forget();
   }
+  step(flexible, contacts_, ContactSolver::Gravity::kToCome, dt);
+}
+
+void CoSimulation::Impl::step(const std::vector<Piece*>& flexible, ContactSolver& contacts,
+                              ContactSolver::Gravity gravity, double dt) {
   const Surroundings surroundings = surroundings_of(flexible, dt);
   refresh_roles(surroundings.carried);
   std::vector<CarriedPiece> carried;
   for (const Piece* piece : surroundings.carried) {
     carried.push_back({&piece->proxy->body(), piece->points, piece->proxy->local()});
   }
-  contacts_.begin_tick(world_, boundary_, time_operator_.pieces(), surroundings.bodies, carried,
-                       dt);
-  gather_loads(dt);
+  contacts.begin_tick(world_, boundary_, time_operator_.pieces(), surroundings.bodies, carried,
+                      gravity, dt);
+  if (&contacts == &contacts_) gather_loads(dt);
   const int substeps = substeps_for(dt);
   environment_.gravity = from_bullet(world_.getGravity());
   time_operator_.set_time(time_);
   const StepReport report =
-      time_operator_.advance(substeps, dt / substeps, environment_, &contacts_);
-  contacts_.write_velocities(world_, dt);
+      time_operator_.advance(substeps, dt / substeps, environment_, &contacts);
+  contacts.write_velocities(world_, dt);
   stepped_lattice_ = true;
   note(report);
 }
 
 void CoSimulation::Impl::note(const StepReport& report) {
-  broken_in_tick_ = report.broken_edges;
+  broken_in_tick_ += report.broken_edges;
   counters_.spring_updates += report.spring_updates;
   counters_.broken_edges += report.broken_edges;
   for (const BreakEvent& event : report.breaks) {

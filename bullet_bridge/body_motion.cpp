@@ -34,13 +34,17 @@ BodyMotion motion_of(const btCollisionObject& object) {
   return link ? motion_of_link(*link) : BodyMotion{};
 }
 
-double largest_speed(const BodyMotion& motion, const btCollisionObject& object) {
-  const double speed = motion.velocity.norm();
-  if (motion.angular_velocity.isZero(0.0)) return speed;
+double reach_of(const btCollisionObject& object) {
   btVector3 centre;
   btScalar radius = 0;
   object.getCollisionShape()->getBoundingSphere(centre, radius);
-  return speed + motion.angular_velocity.norm() * (radius + centre.length());
+  return radius + centre.length();
+}
+
+double largest_speed(const BodyMotion& motion, const btCollisionObject& object) {
+  const double speed = motion.velocity.norm();
+  if (motion.angular_velocity.isZero(0.0)) return speed;
+  return speed + motion.angular_velocity.norm() * reach_of(object);
 }
 
 bool is_movable(const btCollisionObject& object) {

@@ -18,6 +18,9 @@ struct BodyMotion {
 // joints. Zero for anything else.
 BodyMotion motion_of(const btCollisionObject& object);
 
+// m, of the object's shape from its origin.
+double reach_of(const btCollisionObject& object);
+
 // m/s: no point of the object's shape is faster.
 double largest_speed(const BodyMotion& motion, const btCollisionObject& object);
 

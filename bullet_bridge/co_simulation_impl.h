@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -11,8 +10,10 @@
 #include "bullet_bridge/co_simulation.h"
 #include "bullet_bridge/contact_solver.h"
 #include "bullet_bridge/debris.h"
+#include "bullet_bridge/joint_loads.h"
 #include "bullet_bridge/joints.h"
 #include "bullet_bridge/piece.h"
+#include "bullet_bridge/piece_index.h"
 #include "bullet_bridge/push.h"
 #include "bullet_bridge/shapes/shape_cache.h"
 #include "bullet_bridge/solver_decorator.h"
@@ -52,14 +53,16 @@ class CoSimulation::Impl : public TickHooks {
   std::vector<Integration> integration_;  // shape (objects)
   Environment environment_;
   BoundaryTracker boundary_;
-  ContactSolver contacts_;
+  ContactSolver contacts_, late_contacts_;
   ShapeCache shapes_;  // of what rigid pieces are about to touch
   Debris debris_;
-  std::vector<std::unique_ptr<Piece>> pieces_;                     // ascending by id
-  std::unordered_map<const btCollisionObject*, Piece*> piece_of_;  // look-ups only
+  PieceIndex::Pieces pieces_;  // ascending by id
+  PieceIndex index_;
+  JointLoads joint_loads_;
   std::vector<std::pair<const btCollisionObject*, const btCollisionObject*>> passing_;
   std::vector<NearBody> sweeping_;  // kinematic bodies and links on their way in this tick
   bool thawed_in_tick_ = false;
+  bool air_before_ = false;                          // was there air in the last tick?
   std::unordered_set<const btRigidBody*> jointed_;   // of Bullet's world, at the tick's start
   std::vector<std::shared_ptr<PieceBody>> orphans_;  // joints still name them
   struct Push {
@@ -73,6 +76,8 @@ class CoSimulation::Impl : public TickHooks {
   double tick_ = 0.0;  // s, of the present tick
   bool roles_stale_ = true;
   bool stepped_lattice_ = false;
+  bool stepped_late_ = false;  // what the solver sent into a touch
+  bool thawing_late_ = false;  // after the solver: it has given gravity and the game's forces
   std::size_t broken_in_tick_ = 0;
   std::optional<Diagnostic> failure_;
   std::vector<Diagnostic> notes_;
@@ -90,8 +95,13 @@ class CoSimulation::Impl : public TickHooks {
   Vec3 blow_on(const Piece& piece, double dt);
   void gather_loads(double dt);
   void step_lattices(double dt);
+  void step(const std::vector<Piece*>& flexible, ContactSolver& contacts,
+            ContactSolver::Gravity gravity, double dt);
   void show_velocities(double dt);
   void take_joints(double dt);
+  void read_contacts();
+  void catch_up_with_deflected(double dt);
+  void step_late(const std::vector<Piece*>& others, double dt);
   void fly_free_proxies(double dt);
   void split_broken_pieces();
   void split(const Piece& piece, std::vector<std::vector<std::int32_t>> groups);
@@ -116,9 +126,12 @@ class CoSimulation::Impl : public TickHooks {
   [[noreturn]] void refuse_step(double substeps) const;
   void note(const StepReport& report);
   bool switching() const { return settings_.representation == Representation::kSwitching; }
+  void consider_pair(Piece& piece, const btCollisionObject& other, double dt);
   void consider_touch(Piece& piece, const btCollisionObject& other, double dt);
   void consider_sweep(const NearBody& mover, double dt);
   void consider_lattice_hit(const Piece& flexible, Piece& proxy, double dt);
+  void swing_round(const Piece& piece, const btCollisionObject& other, PredictedTouch& touch,
+                   double dt);
   bool material_meets(Piece& piece, const btCollisionObject& other, double limit,
                       const PredictedTouch& touch, double dt);
   void thaw_piece(Piece& piece, const std::string& cause, Numbers numbers);
@@ -126,7 +139,7 @@ class CoSimulation::Impl : public TickHooks {
   void clear_unwanted_manifolds();
   void refresh_roles(const std::vector<Piece*>& carried);
   void set_role(const Piece& piece, PointRole role);
-  std::vector<Piece*> flexible_pieces() const;
+  std::vector<Piece*> flexible_pieces() { return index_.flexible(pieces_); }
   std::vector<std::vector<std::int32_t>> connected_groups(const Piece& piece);
   bool becomes_debris(std::span<const std::int32_t> points) const;
   // `born_in`: the middle of the piece they came off, if they did.
@@ -143,7 +156,7 @@ class CoSimulation::Impl : public TickHooks {
                        const Vec3& place) const;
   void disable(btTypedConstraint& joint, std::size_t object);
   void keep_for_joints(std::shared_ptr<PieceBody> body);
-  void judge_impulse(Piece& piece, double dt);
+  void judge_impulse(Piece& piece, double dt, double share, double weight);
   Calmness look_at(const Piece& piece) const;
   Numbers numbers_of(const Piece& piece, const Calmness& seen) const;
 

@@ -34,7 +34,9 @@ BodyMotion motion_of(const ShadowBody& shadow) {
 
 void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTracker& boundary,
                                const Components& pieces, std::span<const NearBody> near,
-                               std::span<const CarriedPiece> carried, double tick) {
+                               std::span<const CarriedPiece> carried, Gravity gravity,
+                               double tick) {
+  gravity_ = gravity;
   shadows_.next_tick();
   boundary_ = &boundary;
   pieces_ = &pieces;
@@ -61,6 +63,19 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTra
   supports_ = group_support_contacts(contacts, shadows_);
   supported_.assign(static_cast<std::size_t>(shadows_.size()), false);
   for (const SupportContact& c : contacts) supported_[c.a] = supported_[c.b] = true;
+  if (gravity_ == Gravity::kToCome) return;
+  for (int i = 0; i < shadows_.size(); ++i) {
+    if (!supported_[i]) shadows_[i].velocity -= gravity_of(shadows_[i]) * tick;  // it falls anew
+  }
+}
+
+void ContactSolver::take_over(ContactSolver&& other) {
+  for (Obstacle& theirs : other.obstacles_) {
+    const auto same = [&](const Obstacle& mine) { return &mine.object() == &theirs.object(); };
+    if (std::none_of(obstacles_.begin(), obstacles_.end(), same)) {
+      obstacles_.push_back(std::move(theirs));
+    }
+  }
 }
 
 void ContactSolver::add_forces(Lattice& lattice, double dt) {
@@ -150,7 +165,8 @@ void ContactSolver::write_velocities(btDiscreteDynamicsWorld& world, double tick
     if (!body.body->isActive() && !body.moves()) continue;
     wake(world, *body.body);
     // Bullet is about to add this tick's gravity, which an airborne shadow has had already.
-    const Vec3 fall = supported_[i] ? Vec3(Vec3::Zero()) : Vec3(gravity_of(body) * tick);
+    const bool once = supported_[i] || gravity_ == Gravity::kGiven;
+    const Vec3 fall = once ? Vec3(Vec3::Zero()) : Vec3(gravity_of(body) * tick);
     write_velocity(body, body.velocity - fall);
   }
 }

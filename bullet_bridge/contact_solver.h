@@ -35,17 +35,24 @@ struct CarriedPiece {
 // remember: sides, books and friction.
 class ContactSolver : public SubstepCoupling {
  public:
+  // Does Bullet give the bodies this tick's gravity after the substeps, or has it done so?
+  enum class Gravity { kToCome, kGiven };
+
   // `near`: bodies that the lattice may reach in this tick, in a fixed order. `boundary` and
   // `pieces` have to follow the lattice's breaks.
   void begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTracker& boundary,
                   const Components& pieces, std::span<const NearBody> near,
-                  std::span<const CarriedPiece> carried, double tick);
+                  std::span<const CarriedPiece> carried, Gravity gravity, double tick);
 
   // In a tick without lattices: what contacts remembered is no longer true.
   void forget() {
     obstacles_.clear();
     shadows_ = {};
   }
+
+  // From the next tick on this goes on with the other's contacts too; of bodies that both know,
+  // with its own.
+  void take_over(ContactSolver&& other);
 
   // Forces besides, for this tick. After begin_tick().
   void bear(std::vector<PointLoad> loads) { loads_ = std::move(loads); }
@@ -82,6 +89,7 @@ class ContactSolver : public SubstepCoupling {
   const Components* pieces_ = nullptr;
   LatticeSurface surface_;
   ShapeCache shapes_;
+  Gravity gravity_ = Gravity::kToCome;
   int substep_ = 0;
 };
 

@@ -134,10 +134,12 @@ void LatticeBody::show(btDiscreteDynamicsWorld& world, const Lattice& lattice,
   }
   body_->follow(frame);
   body_->bear_joints(joints);
+  shape_.make_static_when_asked(joints ? nullptr : body_.get());
   if (body_->isInWorld()) world.updateSingleAabb(body_.get());  // the game may have taken it out
   note_body();
-  // Bullet gives their state only to bodies that it moves.
-  if (!joints && body_->getMotionState()) body_->getMotionState()->setWorldTransform(pose_);
+  if (joints || !body_->getMotionState()) return;
+  body_->getMotionState()->setWorldTransform(pose_);  // should the game ask for the box meanwhile
+  body_->seem_movable();
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -103,6 +103,9 @@ void LatticeShape::processAllTriangles(btTriangleCallback* callback, const btVec
 
 void LatticeShape::getAabb(const btTransform& pose, btVector3& low, btVector3& high) const {
   btTransformAabb(low_, high_, getMargin(), pose, low, high);
+  if (!becomes_static_) return;
+  becomes_static_->setCollisionFlags(becomes_static_->getCollisionFlags() |
+                                     btCollisionObject::CF_STATIC_OBJECT);
 }
 
 // Of the box around it. Nobody needs it: the body's moments come from the points.

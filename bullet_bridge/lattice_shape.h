@@ -31,6 +31,9 @@ class LatticeShape : public btConcaveShape {
   // The points have moved; `frame` is that of the body now.
   void follow(const Vec3& centre, const Mat3& rotation);
 
+  // From the next question for the bounding box on this body is static; null: none is.
+  void make_static_when_asked(btCollisionObject* body) { becomes_static_ = body; }
+
   void processAllTriangles(btTriangleCallback* callback, const btVector3& low,
                            const btVector3& high) const override;
   void getAabb(const btTransform& pose, btVector3& low, btVector3& high) const override;
@@ -56,6 +59,7 @@ class LatticeShape : public btConcaveShape {
   Mat3 to_local_ = Mat3::Identity();
   btVector3 low_, high_;  // of the points, in the body's frame
   btVector3 unscaled_;
+  btCollisionObject* becomes_static_ = nullptr;
 
   mutable bool listed_ = false, gathered_ = false;
   mutable std::uint64_t revision_ = 0;       // of the boundary, of faces_

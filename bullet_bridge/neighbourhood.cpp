@@ -1,6 +1,7 @@
 #include "bullet_bridge/neighbourhood.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "bullet_bridge/lattice_shape.h"
 #include "bullet_bridge/shadow_body.h"
 #include "bullet_bridge/shapes/contact_shape.h"
+#include "bullet_bridge/touch_prediction.h"
 #include "core/model/bounds.h"
 
 namespace limber::bullet {
@@ -72,21 +74,30 @@ std::vector<std::int32_t> points_near(const Lattice& lattice, std::span<const st
   return some;
 }
 
-// Where the points are on their way through the tick, in the frame of the other body, m.
-std::vector<Vec3> places_seen_from(const btCollisionObject& other, const btCollisionObject& body,
-                                   std::span<const Vec3> local, double dt) {
-  constexpr int kLooks = 4;
+// The points on their way through the tick, in the frame of the other body.
+std::vector<PointMotion> seen_from(const btCollisionObject& other, const btCollisionObject& body,
+                                   std::span<const Vec3> local, int looks, double dt) {
   ShadowBody mine = make_shadow(body), partner = make_shadow(other);
-  std::vector<Vec3> places;
-  for (int look = 0; look < kLooks; ++look) {
-    advance_pose(mine, dt / kLooks);
-    advance_pose(partner, dt / kLooks);
+  std::vector<PointMotion> seen;
+  for (int look = 0; look < looks; ++look) {
+    advance_pose(mine, dt / looks);
+    advance_pose(partner, dt / looks);
+    const Mat3 to_frame = partner.rotation.transpose();
     for (const Vec3& r : local) {
-      const Vec3 at = mine.position + mine.rotation * r;
-      places.push_back(partner.rotation.transpose() * (at - partner.position));
+      const Vec3 arm = mine.rotation * r;
+      const Vec3 at = mine.position + arm - partner.position;
+      const Vec3 velocity = mine.velocity + mine.angular_velocity.cross(arm) - partner.velocity -
+                            partner.angular_velocity.cross(at);
+      seen.push_back({to_frame * at, to_frame * velocity});
     }
   }
-  return places;
+  return seen;
+}
+
+Box3 box_around(std::span<const PointMotion> seen) {
+  Box3 box;
+  for (const PointMotion& point : seen) box.extend(point.position);
+  return box;
 }
 
 }  // namespace
@@ -112,6 +123,13 @@ std::vector<const btCollisionObject*> bodies_in(btCollisionWorld& world, const V
   Collector collector;
   world.getBroadphase()->aabbTest(to_bullet(low), to_bullet(high), collector);
   return std::move(collector.found);
+}
+
+bool may_meet(btCollisionWorld& world, const btCollisionObject& a, const btCollisionObject& b) {
+  const auto handle = [](const btCollisionObject& object) {
+    return const_cast<btBroadphaseProxy*>(object.getBroadphaseHandle());
+  };
+  return world.getPairCache()->needsBroadphaseCollision(handle(a), handle(b));
 }
 
 std::vector<NearBody> bodies_within_reach(btCollisionWorld& world,
@@ -172,19 +190,31 @@ double closing_speed(const Lattice& lattice, std::span<const std::int32_t> one,
   return fastest;
 }
 
-bool points_reach(const btCollisionObject& body, std::span<const Vec3> local,
-                  const btCollisionObject& other, double dt, ShapeCache& cache) {
-  constexpr double kMargin = 0.003;  // m: g dt^2 / 2 at 1/60 s is 1.4 mm
-  const std::vector<Vec3> places = places_seen_from(other, body, local, dt);
-  const Box3 box = limber::bounds_of(places);
-  const Vec3 margin = Vec3::Constant(kMargin);
-  const std::vector<ContactPart> parts =
-      contact_parts(*other.getCollisionShape(), box.min() - margin, box.max() + margin, cache);
-  return std::any_of(parts.begin(), parts.end(), [&](const ContactPart& part) {
-    return std::any_of(places.begin(), places.end(), [&](const Vec3& place) {
-      return penetration(part, place).depth > -kMargin;
-    });
-  });
+std::optional<double> reaching_speed(const btRigidBody& body, std::span<const Vec3> local,
+                                     const btCollisionObject& other, double near, double dt,
+                                     ShapeCache& cache) {
+  constexpr int kFewestLooks = 4, kMostLooks = 32;
+  constexpr double kFall = 0.003;  // m: g dt^2 / 2 at 1/60 s is 1.4 mm
+  double reach = 0.0;
+  for (const Vec3& r : local) reach = std::max(reach, r.norm());
+  const double way = largest_closing_speed(body, reach, other, dt) * dt;
+  const int looks = static_cast<int>(
+      std::clamp(std::ceil(way / (near + kFall)), double{kFewestLooks}, double{kMostLooks}));
+  // Half a look ahead or back a point is this much nearer.
+  const double margin = near + kFall + 0.5 * way / looks;
+  const std::vector<PointMotion> seen = seen_from(other, body, local, looks, dt);
+  const Box3 box = box_around(seen);
+  const Vec3 around = Vec3::Constant(margin);
+  std::optional<double> fastest;
+  for (const ContactPart& part :
+       contact_parts(*other.getCollisionShape(), box.min() - around, box.max() + around, cache)) {
+    for (const PointMotion& point : seen) {
+      const Penetration into = penetration(part, point.position);
+      if (into.depth <= -margin) continue;
+      fastest = std::max(fastest.value_or(0.0), -point.velocity.dot(into.normal));
+    }
+  }
+  return fastest;
 }
 
 }  // namespace LIMBER_BULLET_PRECISION

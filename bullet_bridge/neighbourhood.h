@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 class btCollisionObject;
 class btCollisionWorld;
+class btRigidBody;
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -30,6 +32,9 @@ std::vector<NearBody> sweeping_bodies(const btCollisionWorld& world, double dt);
 std::vector<const btCollisionObject*> bodies_in(btCollisionWorld& world, const Vec3& low,
                                                 const Vec3& high);
 
+// Do the game's groups, masks and own filter let the two meet?
+bool may_meet(btCollisionWorld& world, const btCollisionObject& a, const btCollisionObject& b);
+
 // The bodies that the points may reach within dt, those that sweep through the world among them, in
 // the order in which the world holds them. Bodies without contact response are left out.
 std::vector<NearBody> bodies_within_reach(btCollisionWorld& world,
@@ -46,11 +51,13 @@ std::vector<NearBody> merged(std::vector<NearBody> near);
 double closing_speed(const Lattice& lattice, std::span<const std::int32_t> one,
                      std::span<const std::int32_t> other, double dt);
 
-// Does a point of the rigid piece come into the other body, or within 3 mm of it, in this tick?
-// Both move on as they move now; looked at four times. `local`: the piece's points in the frame of
-// `body`.
-bool points_reach(const btCollisionObject& body, std::span<const Vec3> local,
-                  const btCollisionObject& other, double dt, ShapeCache& cache);
+// The largest speed at which a point of the rigid piece closes in on the other body, m/s, of those
+// that come into it or within `near`, m, of it in this tick; none where none does. Both move on as
+// they move now; so many looks are taken that no point is overlooked between two of them. `local`:
+// the piece's points in the frame of `body`.
+std::optional<double> reaching_speed(const btRigidBody& body, std::span<const Vec3> local,
+                                     const btCollisionObject& other, double near, double dt,
+                                     ShapeCache& cache);
 
 }  // namespace LIMBER_BULLET_PRECISION
 }  // namespace limber::bullet

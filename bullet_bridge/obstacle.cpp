@@ -24,9 +24,9 @@ constexpr double kEaseSpeed = 0.05;
 // A contact is soft, as the point-point penalty, to this share of the point's contact radius (times
 // sqrt(S) for a softened object). There it stops what its springs do not hold (light points under a
 // heavy thing), or, where the speed after the substep is not foreseen, is as stiff from there on as
-// this share of the step's limit, 4 / dt^2, allows. The automatic step leaves 0.15 of it beyond springs and point-point contact;
-// contact with faces of lattices takes 0.1, friction 0.05 of what is left when all meet at one
-// point.
+// this share of the step's limit, 4 / dt^2, allows. The automatic step leaves 0.15 of it beyond
+// springs and point-point contact; contact with faces of lattices takes 0.1, friction 0.05 of what
+// is left when all meet at one point.
 constexpr double kSoftShare = 0.4;
 constexpr double kDeepStepShare = 0.03;
 

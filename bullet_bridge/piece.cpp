@@ -65,6 +65,10 @@ void measure(Piece& piece, const Lattice& lattice) {
     farthest = std::max(farthest, (lattice.motion[p].position - centre).norm());
   }
   piece.size = 2.0 * farthest;
+  double longest = 0.0;
+  for_each_live_spring(lattice, piece.points,
+                       [&](const Spring& s) { longest = std::max(longest, s.rest_length); });
+  piece.face_reach = longest / std::sqrt(3.0);  // the radius around an equilateral triangle
   piece.pinned = std::any_of(piece.points.begin(), piece.points.end(),
                              [&](std::int32_t p) { return lattice.inverse_mass[p] == 0.0; });
 }

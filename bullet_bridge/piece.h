@@ -20,11 +20,13 @@ struct Piece {
   std::vector<std::int32_t> points;  // of the lattice, ascending
   PieceStrength strength;
   double size = 0.0;                  // m, twice the distance of the farthest point
+  double face_reach = 0.0;            // m, of any place on its faces from the nearest point
   std::unique_ptr<RigidProxy> proxy;  // null while flexible
   std::unique_ptr<LatticeBody> seen;  // null while rigid
   double stored_J = 0.0;              // elastic energy, while rigid
-  double carried_load = 0.0;          // N, of its contacts when it became rigid
-  double sustained_load = 0.0;        // N, of its contacts since then, averaged over time
+  double joint_load = 0.0;            // N, of the game's constraints in the last tick
+  double carried_load = 0.0;          // N, of contacts and joints when it became rigid
+  double sustained_load = 0.0;        // N, of them since then, averaged over time
   Vec3 carried_air = Vec3::Zero();    // N, force of the air then, in the body's frame
   Vec3 air_load = Vec3::Zero();       // N, its mean in the last tick, in the body's frame
   int calm_ticks = 0;                 // while flexible
@@ -52,7 +54,7 @@ double contact_load(const Lattice& lattice, std::span<const std::int32_t> points
 // Largest share of its threshold that one of the unbroken springs bears as the points are now.
 double largest_load(const Lattice& lattice, std::span<const std::int32_t> points);
 
-// Fills strength and size from the points.
+// Fills strength, sizes and pinned from the points.
 void measure(Piece& piece, const Lattice& lattice);
 
 }  // namespace LIMBER_BULLET_PRECISION

@@ -40,7 +40,11 @@ class PieceBody : public btRigidBody {
 
   // Of a lattice: does Bullet solve it?
   void bear_joints(bool joints);
-  bool bears_joints() const { return lattice_ && !isStaticObject(); }
+
+  // Of a lattice that Bullet does not solve, between its steps: Bullet gives interpolated motion
+  // states to what is not static. Once a step has begun it has to be static again, before Bullet
+  // puts islands together; that it asks for the shape's bounding box is the sign (LatticeShape).
+  void seem_movable() { setCollisionFlags(getCollisionFlags() & ~CF_STATIC_OBJECT); }
 
   // Of a lattice: moves with it, and so do the joints' frames in it.
   void follow(const ProxyFrame& frame);

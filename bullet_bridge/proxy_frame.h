@@ -23,7 +23,9 @@ struct ProxyFrame {
 // so that L stays exact): Bullet gets this share of the largest moment instead of zero.
 inline constexpr double kSmallestMomentShare = 1e-4;
 
-ProxyFrame proxy_frame(const RigidMotion& motion);
+// `axes`: to be taken where they are principal ones to rounding. A cube has no others to tell from
+// them, and stands in its own only by these.
+ProxyFrame proxy_frame(const RigidMotion& motion, const Mat3& axes = Mat3::Identity());
 
 }  // namespace LIMBER_BULLET_PRECISION
 }  // namespace limber::bullet

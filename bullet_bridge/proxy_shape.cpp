@@ -22,16 +22,19 @@ constexpr std::size_t kFewestItems = 6;   // a hull of fewer cells is never spli
 constexpr double kMarginShare = 0.1;      // of the smallest half extent
 constexpr double kLargestMargin = 0.04;   // m, Bullet's default
 constexpr double kSmallestExtent = 1e-4;  // m, of the box that stands for a flat hull
+constexpr double kBoxTolerance = 1e-3;    // of the smallest half extent, to count as a box
 
 // Bullet keeps a contact point from tick to tick while it moves less than 2 % of the shape's size.
 // A shard of 3 cm falls farther than that within a tick (g dt^2 = 2.7 mm at 1/60 s against 0.6 mm):
 // it would rest on one point at a time and rock itself into the ground.
 constexpr double kLeastContactBreaking = 0.005;  // m
 
-class ShardHull : public btConvexHullShape {
+template <class Shape>
+class Shard : public Shape {
  public:
+  using Shape::Shape;
   btScalar getContactBreakingThreshold(btScalar share) const override {
-    return std::max(btConvexHullShape::getContactBreakingThreshold(share),
+    return std::max(Shape::getContactBreakingThreshold(share),
                     static_cast<btScalar>(kLeastContactBreaking));
   }
 };
@@ -125,16 +128,36 @@ std::unique_ptr<btCollisionShape> flat_box(Items items, btTransform& pose) {
   return shape;
 }
 
+// Do the points fill a box about the body's centre, along its axes? Bullet is faster with boxes,
+// and finds all corners of a contact at once. What is turned about those axes, as a cube may be
+// that was dented, stays a hull.
+bool is_box(std::span<const btVector3> points, const Box& box) {
+  const double tolerance = kBoxTolerance * box.half().minCoeff();
+  if (tolerance <= kBoxTolerance * kSmallestExtent) return false;  // flat
+  if (box.middle().cwiseAbs().maxCoeff() > tolerance) return false;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 sign(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
+    const Vec3 place = sign.cwiseProduct(box.half());
+    const auto is_there = [&](const btVector3& p) {
+      return (from_bullet(p) - place).cwiseAbs().maxCoeff() <= tolerance;
+    };
+    if (std::none_of(points.begin(), points.end(), is_there)) return false;
+  }
+  return true;
+}
+
 std::unique_ptr<btCollisionShape> shrunk_hull(Items items, btTransform& pose) {
   pose.setIdentity();
   const std::vector<btVector3> points = outermost_points(items);
-  const double wanted = std::min(kLargestMargin, kMarginShare * bounds(items).half().minCoeff());
+  const Box box = bounds(items);
+  if (is_box(points, box)) return std::make_unique<Shard<btBoxShape>>(to_bullet(box.half()));
+  const double wanted = std::min(kLargestMargin, kMarginShare * box.half().minCoeff());
   btConvexHullComputer hull;
   const btScalar margin =
       hull.compute(&points[0].m_floats[0], sizeof(btVector3), static_cast<int>(points.size()),
                    static_cast<btScalar>(wanted), btScalar(0.5));
   if (points.size() < 4 || hull.vertices.size() < 4 || margin <= 0) return flat_box(items, pose);
-  auto shape = std::make_unique<ShardHull>();
+  auto shape = std::make_unique<Shard<btConvexHullShape>>();
   shape->setMargin(margin);
   for (int i = 0; i < hull.vertices.size(); ++i) shape->addPoint(hull.vertices[i], false);
   shape->recalcLocalAabb();

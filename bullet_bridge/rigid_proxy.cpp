@@ -1,5 +1,7 @@
 #include "bullet_bridge/rigid_proxy.h"
 
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+
 #include <algorithm>
 
 #include "bullet_bridge/conversions.h"
@@ -76,13 +78,19 @@ RigidProxy::RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
                        std::span<const std::int32_t> points, std::shared_ptr<PieceBody> body)
     : written_basis_(btMatrix3x3::getIdentity()) {
   written_basis_[0][0] = 2;  // no rotation: nothing was written yet
-  const ProxyFrame frame = proxy_frame(rigid_motion(lattice.motion, lattice.mass, points));
+  const ProxyFrame frame =
+      proxy_frame(rigid_motion(lattice.motion, lattice.mass, points),
+                  best_rotation(lattice.motion, lattice.authored_position, lattice.mass, points));
   const Mat3 to_local = frame.orientation.toRotationMatrix().transpose();
   for (std::int32_t p : points) {
     local_.push_back(to_local * (lattice.motion[p].position - frame.centre));
   }
   flying_ = {frame.mass, frame.moments, faces_of(lattice, points, frame)};
   shape_ = fit_proxy_shape(shape_items(lattice, points, frame));
+  btVector3 middle;
+  btScalar radius = 0;
+  shape_.shape().getBoundingSphere(middle, radius);
+  reach_ = radius + middle.length();
   mass_ = frame.mass;
   moments_ = frame.moments;
   regularised_ = frame.regularised;
@@ -115,15 +123,24 @@ RigidMotion RigidProxy::motion() const {
   return motion;
 }
 
+RigidProxy::Start RigidProxy::start() const {
+  const bool as_written = start_pose_.getBasis() == written_basis_ &&
+                          start_angular_velocity_ == written_angular_velocity_;
+  return {from_bullet(start_pose_.getOrigin()), from_bullet(start_velocity_),
+          as_written ? flown_orientation_ : from_bullet(start_pose_.getRotation()),
+          as_written ? flown_angular_velocity_ : from_bullet(start_angular_velocity_)};
+}
+
 FlightState RigidProxy::start_of_flight() const {
-  FlightState start;
-  start.centre = start_position_;
-  start.orientation = start_orientation_;
-  start.velocity = start_velocity_;
-  start.angular_momentum =
-      start_orientation_ *
-      Vec3(moments_.cwiseProduct(start_orientation_.conjugate() * start_angular_velocity_));
-  return start;
+  const Start from = start();
+  FlightState state;
+  state.centre = from.position;
+  state.orientation = from.orientation;
+  state.velocity = from.velocity;
+  state.angular_momentum =
+      from.orientation *
+      Vec3(moments_.cwiseProduct(from.orientation.conjugate() * from.angular_velocity));
+  return state;
 }
 
 Vec3 RigidProxy::to_world(const Vec3& of_body) const {
@@ -139,40 +156,34 @@ Vec3 RigidProxy::air_force(const Air& air, double time) const {
 
 Vec3 RigidProxy::feel_air(const Air& air, double time, double tick) {
   const Vec3 gravity = from_bullet(body_->getGravity());
-  const FlightState start = start_of_flight();
-  const FlightState end = flown(flying_, air, gravity, time, tick, start);
-  const Vec3 blown = end.velocity - start.velocity - gravity * tick;
-  FlightState turned = start;
+  const FlightState before = start_of_flight();
+  const FlightState end = flown(flying_, air, gravity, time, tick, before);
+  const Vec3 blown = end.velocity - before.velocity - gravity * tick;
+  FlightState turned = before;
   turned.angular_momentum = end.angular_momentum;
-  const Vec3 spun = angular_velocity(flying_, turned) - start_angular_velocity_;
+  const Vec3 spun = angular_velocity(flying_, turned) - start().angular_velocity;
   body_->setLinearVelocity(body_->getLinearVelocity() + to_bullet(blown));
   body_->setAngularVelocity(body_->getAngularVelocity() + to_bullet(spun));
   foreseen_angular_velocity_ = body_->getAngularVelocity();
   flight_end_ = end;
-  return start_orientation_.conjugate() * Vec3(flying_.mass / tick * blown);
+  return before.orientation.conjugate() * Vec3(flying_.mass / tick * blown);
 }
 
 void RigidProxy::remember() {
   flight_end_.reset();
-  start_velocity_ = from_bullet(body_->getLinearVelocity());
-  start_position_ = from_bullet(body_->getWorldTransform().getOrigin());
-  start_orientation_ = from_bullet(body_->getWorldTransform().getRotation());
-  start_angular_velocity_ = from_bullet(body_->getAngularVelocity());
-  foreseen_angular_velocity_ = body_->getAngularVelocity();
-  const bool as_written = body_->getWorldTransform().getBasis() == written_basis_ &&
-                          body_->getAngularVelocity() == written_angular_velocity_;
-  if (!as_written) return;
-  start_orientation_ = flown_orientation_;
-  start_angular_velocity_ = flown_angular_velocity_;
+  start_pose_ = body_->getWorldTransform();
+  start_velocity_ = body_->getLinearVelocity();
+  start_angular_velocity_ = foreseen_angular_velocity_ = body_->getAngularVelocity();
 }
 
 void RigidProxy::fly(double tick) {
+  const Start from = start();
   const Vec3 velocity = from_bullet(body_->getLinearVelocity());
-  Vec3 position = start_position_ + 0.5 * tick * (start_velocity_ + velocity);
-  Eigen::Quaterniond orientation = start_orientation_;
+  Vec3 position = from.position + 0.5 * tick * (from.velocity + velocity);
+  Eigen::Quaterniond orientation = from.orientation;
   const Vec3 half_twist =
       0.5 * from_bullet(body_->getAngularVelocity() - foreseen_angular_velocity_);
-  Vec3 omega = start_angular_velocity_ + half_twist;
+  Vec3 omega = from.angular_velocity + half_twist;
   if (flight_end_) {
     position = flight_end_->centre + 0.5 * tick * (velocity - flight_end_->velocity);
     orientation = turned(flight_end_->orientation, half_twist, tick);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <LinearMath/btMatrix3x3.h>
+#include <LinearMath/btTransform.h>
 
 #include <Eigen/Geometry>
 #include <memory>
@@ -33,6 +33,9 @@ class RigidProxy {
   std::shared_ptr<PieceBody> shared_body() const { return body_; }
   std::span<const Vec3> local() const { return local_; }
 
+  // Of its shape from its centre, m, at most.
+  double reach() const { return reach_; }
+
   // Puts the points where the body carries them: x = X + R r, v = V + omega x R r.
   void write_points(Lattice& lattice, std::span<const std::int32_t> points) const;
 
@@ -63,6 +66,13 @@ class RigidProxy {
   double impulse = 0.0;  // N s, magnitude of all contact impulses of the last tick
 
  private:
+  // Where it was at the tick's start, and how it moved.
+  struct Start {
+    Vec3 position, velocity;  // m, m/s
+    Eigen::Quaterniond orientation;
+    Vec3 angular_velocity;  // rad/s
+  };
+  Start start() const;
   FlightState start_of_flight() const;
 
   std::vector<Vec3> local_;                // shape (points)
@@ -70,13 +80,13 @@ class RigidProxy {
   std::optional<FlightState> flight_end_;  // of this tick
   ProxyShape shape_;
   std::shared_ptr<PieceBody> body_;
+  double reach_ = 0.0;
   double mass_ = 0.0;
   Vec3 moments_;
   bool regularised_ = false;
-  Vec3 start_velocity_;
-  Vec3 start_position_;
-  Eigen::Quaterniond start_orientation_;
-  Vec3 start_angular_velocity_;
+  // As Bullet holds it: most bodies rest, and nobody asks.
+  btTransform start_pose_;
+  btVector3 start_velocity_, start_angular_velocity_;
   Eigen::Quaterniond flown_orientation_;  // exact, of the last flight
   Vec3 flown_angular_velocity_;
   btMatrix3x3 written_basis_;  // what Bullet was given for them

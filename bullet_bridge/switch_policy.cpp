@@ -6,9 +6,7 @@
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
-double averaged_load(double average, double load, double dt, double tau) {
-  return average - (load - average) * std::expm1(-dt / tau);
-}
+double averaging_share(double dt, double tau) { return -std::expm1(-dt / tau); }
 
 double impact_strain(const PieceStrength& piece, double closing_speed, double partner_mass) {
   if (closing_speed <= 0.0) return 0.0;

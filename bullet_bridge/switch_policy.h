@@ -34,8 +34,8 @@ struct SwitchSettings {
   double load_time = 0.1;
 };
 
-// Running average of a load over the time tau: s + (load - s) (1 - exp(-dt / tau)).
-double averaged_load(double average, double load, double dt, double tau);
+// What the last dt counts in a running average over the time tau: 1 - exp(-dt / tau).
+double averaging_share(double dt, double tau);
 
 // Strain of a piece of mass m that meets a partner of mass M at a closing speed v: the wave of a
 // collinear impact has v / c; a partner lighter than the piece shortens the contact,

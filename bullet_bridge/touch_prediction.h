@@ -13,18 +13,22 @@ inline namespace LIMBER_BULLET_PRECISION {
 
 // Two bodies that will touch, or do, within the tick.
 struct PredictedTouch {
-  double gap = 0.0;            // m, negative where the shapes overlap
-  double closing_speed = 0.0;  // m/s, along the shortest distance, of the points there
+  double time = 0.0;           // s, from now: 0 where they touch already
+  double gap = 0.0;            // m, now; negative where the shapes overlap
+  double closing_speed = 0.0;  // m/s, then, along the shortest distance, of the points there
 };
 
 // An upper bound of the speed at which any two points of the bodies can approach, m/s, with what
-// gravity adds within the tick.
-double largest_closing_speed(const btCollisionObject& a, const btCollisionObject& b, double dt);
+// gravity adds within the tick. `reach`: of the body's shape from its centre, m.
+double largest_closing_speed(const btRigidBody& body, double reach, const btCollisionObject& other,
+                             double dt);
 
-// Will the body touch the other within dt? Conservative: the gap along the shortest distance
-// against what the bodies can close, with their rotation; the normal may swing meanwhile. The
-// impulse of a touch that it foresees is not applied yet, so that a body may still change its
-// representation. Concave partners count as touched when their pair exists.
+// Will the body touch the other within dt? Both go on as they move now, turn and fall; the time is
+// found by conservative advancement (Mirtich 1996): they cannot meet before the gap is closed along
+// the shortest distance by their approach and all that their rotation may add to it. The impulse of
+// a touch that this foresees is not applied yet, so that a body may still change its
+// representation. Of several touches that of the highest closing speed. In doubt (shapes that are
+// neither convex nor made of triangles, more than two dozen steps) they touch.
 std::optional<PredictedTouch> predict_touch(const btRigidBody& body, const btCollisionObject& other,
                                             double dt);
 

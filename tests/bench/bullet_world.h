@@ -26,6 +26,11 @@ class BulletWorld {
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shapes_.back().get(), inertia);
     info.m_startWorldTransform.setIdentity();
     info.m_startWorldTransform.setOrigin(centre_m);
+    return add(info);
+  }
+
+  // Its shape has to outlive this.
+  btRigidBody& add(const btRigidBody::btRigidBodyConstructionInfo& info) {
     bodies_.push_back(std::make_unique<btRigidBody>(info));
     world_.addRigidBody(bodies_.back().get());
     return *bodies_.back();

@@ -1,8 +1,10 @@
-// What a resting object costs a game: a proxy beside a plain Bullet box.
+// What a resting object costs a game: proxies beside the same bodies in plain Bullet, boxes and
+// hulls, kept awake and asleep.
 
 #include <benchmark/benchmark.h>
 
 #include "bullet_bridge/co_simulation.h"
+#include "bullet_bridge/conversions.h"
 #include "tests/bench/bench_models.h"
 #include "tests/bench/bullet_world.h"
 
@@ -21,12 +23,20 @@ Vec3 place_of(int i, int count) {
   return {kDistance * (i % along), 0.5 * kSide, kDistance * (i / along)};
 }
 
-void set_sleeping(btDiscreteDynamicsWorld& world, bool allowed) {
+enum class Kind { kBox, kHull };
+enum class Sleep { kNever, kAllowed };
+
+PhysicalModel object(Kind kind, int i, int count) {
+  const Vec3 corner = place_of(i, count) - Vec3::Constant(0.5 * kSide);
+  return kind == Kind::kBox ? bench::brick(kPointsAlongEdge, kSide, corner)
+                            : bench::tapered_brick(kPointsAlongEdge, kSide, corner);
+}
+
+void set_sleeping(btDiscreteDynamicsWorld& world, Sleep sleep) {
   for (int i = 0; i < world.getNumCollisionObjects(); ++i) {
     btCollisionObject& object = *world.getCollisionObjectArray()[i];
-    if (!object.isStaticObject()) {
-      object.forceActivationState(allowed ? ACTIVE_TAG : DISABLE_DEACTIVATION);
-    }
+    if (object.isStaticObject()) continue;
+    object.forceActivationState(sleep == Sleep::kAllowed ? ACTIVE_TAG : DISABLE_DEACTIVATION);
   }
 }
 
@@ -39,9 +49,9 @@ int awake(btDiscreteDynamicsWorld& world) {
   return count;
 }
 
-// Settles, then measures ticks. Sleeping is off, so that both kinds keep all of their work.
-void measure_ticks(benchmark::State& state, bench::BulletWorld& bullet) {
-  set_sleeping(bullet.world(), false);
+// Settles, then measures ticks.
+void measure_ticks(benchmark::State& state, bench::BulletWorld& bullet, Sleep sleep) {
+  set_sleeping(bullet.world(), sleep);
   for (int n = 0; n < kSettlingTicks; ++n) bullet.tick();
   for (auto _ : state) bullet.tick();
   state.counters["awake"] = awake(bullet.world());
@@ -50,36 +60,66 @@ void measure_ticks(benchmark::State& state, bench::BulletWorld& bullet) {
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-void proxy_idle(benchmark::State& state) {
+void proxy_idle(benchmark::State& state, Kind kind, Sleep sleep) {
   bench::BulletWorld bullet;
   bullet.add_floor();
   CoSimulation limber(bullet.world());
   const int count = static_cast<int>(state.range(0));
-  for (int i = 0; i < count; ++i) {
-    const Vec3 corner = place_of(i, count) - Vec3::Constant(0.5 * kSide);
-    limber.add(bench::brick(kPointsAlongEdge, kSide, corner));
-  }
+  for (int i = 0; i < count; ++i) limber.add(object(kind, i, count));
   bullet.tick();  // the proxies are there from the first tick on
   const std::size_t switched = limber.switches().size();
-  measure_ticks(state, bullet);
+  measure_ticks(state, bullet, sleep);
   if (limber.failure()) state.SkipWithError(limber.failure()->text().c_str());
   state.counters["switches"] = static_cast<double>(limber.switches().size() - switched);
 }
-BENCHMARK(proxy_idle)->Name("proxy/idle")->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
 
-void bullet_idle(benchmark::State& state) {
+// A plain body with the shape, place and mass of a proxy.
+void add_twin(bench::BulletWorld& bullet, const btRigidBody& proxy) {
+  btRigidBody::btRigidBodyConstructionInfo info(
+      1 / proxy.getInvMass(), nullptr, const_cast<btCollisionShape*>(proxy.getCollisionShape()),
+      btVector3(1, 1, 1) / proxy.getInvInertiaDiagLocal());
+  info.m_startWorldTransform = proxy.getWorldTransform();
+  info.m_friction = proxy.getFriction();
+  info.m_restitution = proxy.getRestitution();
+  info.m_linearSleepingThreshold = proxy.getLinearSleepingThreshold();
+  info.m_angularSleepingThreshold = proxy.getAngularSleepingThreshold();
+  bullet.add(info);
+}
+
+void bullet_idle(benchmark::State& state, Kind kind, Sleep sleep) {
+  bench::BulletWorld models;
+  CoSimulation limber(models.world());
   bench::BulletWorld bullet;
   bullet.add_floor();
   const int count = static_cast<int>(state.range(0));
   const auto half = static_cast<btScalar>(0.5 * kSide);
   for (int i = 0; i < count; ++i) {
-    const Vec3 at = place_of(i, count);
-    bullet.add_box(kMass, {half, half, half},
-                   {btScalar(at.x()), btScalar(at.y()), btScalar(at.z())});
+    if (kind == Kind::kBox) {
+      bullet.add_box(kMass, {half, half, half}, to_bullet(place_of(i, count)));
+    } else {
+      limber.add(object(kind, i, count));
+    }
   }
-  measure_ticks(state, bullet);
+  for (const PieceView& piece : limber.pieces()) add_twin(bullet, *piece.body);
+  measure_ticks(state, bullet, sleep);
 }
-BENCHMARK(bullet_idle)->Name("bullet/idle")->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
+
+#define IDLE(what, name, ...)                     \
+  BENCHMARK_CAPTURE(what##_idle, name, __VA_ARGS__) \
+      ->Name(#what "/" #name)                     \
+      ->Arg(10)                                   \
+      ->Arg(100)                                  \
+      ->Arg(1000)                                 \
+      ->Unit(benchmark::kMicrosecond)
+
+IDLE(proxy, idle, Kind::kBox, Sleep::kNever);
+IDLE(bullet, idle, Kind::kBox, Sleep::kNever);
+IDLE(proxy, idle_hull, Kind::kHull, Sleep::kNever);
+IDLE(bullet, idle_hull, Kind::kHull, Sleep::kNever);
+IDLE(proxy, idle_asleep, Kind::kBox, Sleep::kAllowed);
+IDLE(bullet, idle_asleep, Kind::kBox, Sleep::kAllowed);
+IDLE(proxy, idle_hull_asleep, Kind::kHull, Sleep::kAllowed);
+IDLE(bullet, idle_hull_asleep, Kind::kHull, Sleep::kAllowed);
 
 }  // namespace
 }  // namespace limber::bullet

@@ -141,9 +141,9 @@ TEST_P(Push, GivesAMotionStateItsPose) {
 
 // A game that draws more often than Bullet steps gets places between ticks, a tick late as Bullet
 // has it, on the parabola but for g dt^2 / 2 of straight line.
-TEST(MotionState, OfAFlyingProxyIsInterpolatedBetweenTicks) {
+TEST_P(Push, GivesAFlyingPiecesMotionStatePlacesBetweenTicks) {
   World world;
-  CoSimulation simulation(*world, settings_for(Representation::kAlwaysRigid));
+  CoSimulation simulation(*world, settings_for(GetParam()));
   simulation.add(make_block({}, Vec3::Zero(), {2.0, 3.0, 0.0}));
   btDefaultMotionState state;
   btRigidBody& body = *simulation.pieces().at(0).body;

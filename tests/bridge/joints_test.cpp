@@ -161,6 +161,28 @@ TEST(Joint, OnAPinnedLatticeBearsAWeight) {
   EXPECT_NEAR(weight.getCenterOfMassPosition().y(), -0.25, 0.01);
 }
 
+// A weight hung below it pulls a block against the joint above: F L / (m c^2) = F / (E A) with
+// E A = 90 kN. Both joints pull, with next to no force on the whole.
+TEST(Joint, ThatPullsTooHardTurnsAProxyFlexible) {
+  for (const double mass : {5.0, 200.0}) {  // 0.05 % and 2 %; the limit is 1 %
+    World world;
+    CoSimulation simulation(*world);
+    simulation.add(make_block({.modulus = 1e6, .internal_damping = 100.0}, -kTop));
+    btRigidBody& body = *simulation.pieces().at(0).body;
+    BallJoint above(world, body, local_place(body, Vec3::Zero()));
+    btRigidBody& weight = world.add_box({0.1, 0.1, 0.1}, mass, {0.0, -0.4, 0.0});
+    BallJoint below(world, body, weight, local_place(body, -2.0 * kTop), btVector3(0, btScalar(0.1), 0));
+    btJointFeedback of_the_game;
+    below->setJointFeedback(&of_the_game);
+    world.run(0.5, kTick);
+    EXPECT_EQ(simulation.counters().to_flexible > 0, mass > 100.0) << mass;
+    EXPECT_EQ(below->getJointFeedback(), &of_the_game);
+    EXPECT_EQ(above->getJointFeedback(), nullptr);
+    if (mass > 100.0) continue;
+    EXPECT_NEAR(of_the_game.m_appliedForceBodyA.length(), mass * kGravity, 0.2 * mass * kGravity);
+  }
+}
+
 // Hit by a ball, it turns flexible, and rigid again later; the joint holds throughout.
 TEST(Joint, HoldsThroughSwitching) {
   World world;

@@ -94,10 +94,10 @@ TEST(CalmTicks, LastAPeriodOfTheSlowestVibration) {
 
 // One step of a first-order filter over its own time constant covers 1 - 1/e of the way, however
 // many steps it is divided into.
-TEST(AveragedLoad, ForgetsExponentially) {
-  EXPECT_NEAR(averaged_load(2.0, 5.0, 0.1, 0.1), 5.0 - 3.0 * std::exp(-1.0), 1e-14);
+TEST(AveragingShare, ForgetsExponentially) {
+  EXPECT_NEAR(averaging_share(0.1, 0.1), 1.0 - std::exp(-1.0), 1e-15);
   double average = 2.0;
-  for (int i = 0; i < 10; ++i) average = averaged_load(average, 5.0, 0.01, 0.1);
+  for (int i = 0; i < 10; ++i) average += (5.0 - average) * averaging_share(0.01, 0.1);
   EXPECT_NEAR(average, 5.0 - 3.0 * std::exp(-1.0), 1e-14);
 }
 
