@@ -22,8 +22,9 @@ namespace {
 constexpr double kEaseSpeed = 0.05;
 
 // A contact is soft, as the point-point penalty, to this share of the point's contact radius (times
-// sqrt(S) for a softened object), and from there on as stiff as this share of the step's limit,
-// 4 / dt^2, allows. The automatic step leaves 0.15 of it beyond springs and point-point contact;
+// sqrt(S) for a softened object). There it stops what its springs do not hold (light points under a
+// heavy thing), or, where the speed after the substep is not foreseen, is as stiff from there on as
+// this share of the step's limit, 4 / dt^2, allows. The automatic step leaves 0.15 of it beyond springs and point-point contact;
 // contact with faces of lattices takes 0.1, friction 0.05 of what is left when all meet at one
 // point.
 constexpr double kSoftShare = 0.4;
@@ -33,10 +34,6 @@ constexpr double kDeepStepShare = 0.03;
 // on the far side.
 constexpr double kThinShare = 0.1;
 constexpr double kThinMost = 0.4;  // softened or not
-
-// At this many times that depth it stops what the springs do not: a light point under a heavy
-// thing.
-constexpr double kDeepest = 2.0;
 
 // What all contacts of a body may take together of the step's limit on the body's side.
 constexpr double kBodyStepShare = 0.05;
@@ -437,8 +434,7 @@ PenaltyContact Obstacle::law_at(const Lattice& lattice, std::int32_t point, cons
                             std::min(kThinShare * dents, kThinMost) * thickness(part));
   law.deep_frequency = std::max(law.frequency, 2.0 * std::sqrt(kDeepStepShare) / dt);
   // What implicit springs do to a speed is not foreseen: it cannot be stopped.
-  law.deepest =
-      object.implicit ? kNoLimit : std::min(kDeepest * law.soft_depth, kThinMost * thickness(part));
+  law.deepest = object.implicit ? kNoLimit : law.soft_depth;
   return law;
 }
 

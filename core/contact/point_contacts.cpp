@@ -27,6 +27,19 @@ PenaltyContact law_between(const LatticeObject& a, const LatticeObject& b) {
   return law;
 }
 
+// N, along the unit normal from a to b. What implicit springs do to a speed is not foreseen: their
+// points go by the present one.
+double normal_force(const Lattice& lattice, const PointContacts::Pair& pair, double depth,
+                    const Vec3& normal, double dt) {
+  if (is_implicit(lattice, pair.a) || is_implicit(lattice, pair.b)) {
+    const Vec3 w = lattice.motion[pair.b].velocity - lattice.motion[pair.a].velocity;
+    return penalty_force(pair.law, pair.reduced_mass, depth, w.dot(normal));
+  }
+  const Vec3 w = velocity_after(lattice, pair.b, dt) - velocity_after(lattice, pair.a, dt);
+  return bearing_force(pair.law, pair.reduced_mass, depth, w.dot(normal), dt / pair.reduced_mass,
+                       dt);
+}
+
 // Refreshes between two looks at how far pieces have deformed.
 constexpr int kDeformationCheckInterval = 16;
 
@@ -213,13 +226,15 @@ double PointContacts::eased_contact_distance(const Lattice& lattice, std::int32_
   return now;
 }
 
-void PointContacts::add_forces(Lattice& lattice) const {
-  add_forces_of(between_, lattice);
-  add_forces_of(within_, lattice);
-  add_forces_of(fresh_, lattice);
+void PointContacts::add_forces(Lattice& lattice, double dt) const {
+  add_forces_of(between_, lattice, dt);
+  add_forces_of(within_, lattice, dt);
+  add_forces_of(fresh_, lattice, dt);
 }
 
-void PointContacts::add_forces_of(const Pairs& pairs, Lattice& lattice) const {
+// One pair after the other, each by what those before it have done: together they damp what they
+// press no more than one of them would, however many share a point.
+void PointContacts::add_forces_of(const Pairs& pairs, Lattice& lattice, double dt) const {
   for (const Pair& pair : pairs) {
     const PointMotion& a = lattice.motion[pair.a];
     const PointMotion& b = lattice.motion[pair.b];
@@ -228,9 +243,8 @@ void PointContacts::add_forces_of(const Pairs& pairs, Lattice& lattice) const {
     if (squared >= pair.contact_distance * pair.contact_distance || squared == 0.0) continue;
     const double distance = std::sqrt(squared);
     const Vec3 normal = d / distance;
-    const double rate = (b.velocity - a.velocity).dot(normal);
     const double push =
-        penalty_force(pair.law, pair.reduced_mass, pair.contact_distance - distance, rate);
+        normal_force(lattice, pair, pair.contact_distance - distance, normal, dt);
     lattice.force[pair.b] += push * normal;
     lattice.force[pair.a] -= push * normal;
     lattice.touched[pair.a] = lattice.touched[pair.b] = 1;

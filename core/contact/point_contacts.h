@@ -33,8 +33,9 @@ class PointContacts {
   // near, of one piece, or joined. Where one did, refresh() has to follow.
   void edges_broken(const Lattice& lattice, std::span<const std::int32_t> edges);
 
-  // Adds the forces of all listed pairs to lattice.force.
-  void add_forces(Lattice& lattice) const;
+  // Adds the forces of all listed pairs to lattice.force, which has to hold all others that are
+  // known. Once a substep of dt, s.
+  void add_forces(Lattice& lattice, double dt) const;
 
   struct Pair {
     std::int32_t a, b;        // a < b
@@ -69,7 +70,7 @@ class PointContacts {
   Pair make_pair(const Lattice& lattice, std::int32_t p, std::int32_t q) const;
   double eased_contact_distance(const Lattice& lattice, std::int32_t p, std::int32_t q,
                                 double contact_distance) const;
-  void add_forces_of(const Pairs& pairs, Lattice& lattice) const;
+  void add_forces_of(const Pairs& pairs, Lattice& lattice, double dt) const;
 
   Pairs between_, within_;
   // Within pieces too, in order of breaking: inserted one by one they would cost the whole list

@@ -187,14 +187,15 @@ void TimeOperator::sum_forces(const Environment& environment, double time, doubl
   summed_at_ = time;
   apply_gravity(environment.gravity);
   springs_.add(dt);
-  contacts_.add_forces(lattice_);
   if (environment.air) {
     add_face_forces(faces_, *environment.air, time, lattice_.motion, lattice_.force);
   }
   for (std::size_t i = 0; i < coupling_force_.size(); ++i) {
     lattice_.force[lattice_.dynamic_points[i]] += coupling_force_[i];
   }
-  surface_contacts_.add_forces(lattice_, dt);  // goes by all the others
+  // Contacts go by all the others.
+  contacts_.add_forces(lattice_, dt);
+  surface_contacts_.add_forces(lattice_, dt);
   supports_ = {};
   if (!environment.ground) return;
   ground_.add_forces(lattice_, *environment.ground, implicit_.explicit_points(lattice_), weight);

@@ -46,7 +46,7 @@ void simulate(Lattice& lattice, double seconds) {
   for (int n = 0; n * kStep < seconds; ++n) {
     contacts.refresh(lattice, pieces, n == 0, false);
     clear_forces(lattice);
-    contacts.add_forces(lattice);
+    contacts.add_forces(lattice, kStep);
     move(lattice, kStep);
   }
 }
@@ -92,7 +92,7 @@ double push_on(const Lattice& lattice, std::size_t point) { return lattice.force
 
 void add_forces_anew(const PointContacts& contacts, Lattice& lattice) {
   clear_forces(lattice);
-  contacts.add_forces(lattice);
+  contacts.add_forces(lattice, kStep);
 }
 
 TEST(PointContacts, PushPointsApartByTheirOverlap) {
@@ -116,6 +116,33 @@ TEST(PointContacts, JoinedPointsDoNotRepel) {
   lattice.motion[1].position.x() = 0.2;
   add_forces_anew(contacts, lattice);
   EXPECT_EQ(push_on(lattice, 0), 0.0);
+}
+
+// A point of 1 kg on another one that cannot move, pressed upon by 50 times its own weight. With k d
+// while they approach and e^2 k d while they separate it would tremble for ever.
+TEST(PointContacts, BearALoadWithoutTrembling) {
+  constexpr double kLoad = 500.0;  // N
+  PhysicalModel support = loose_pair(Vec3::Zero(), Vec3::Zero());
+  for (PointAttributes& p : support.points) p.pinned = true;
+  PhysicalModel rider = loose_pair({0.0, 1.0 + 1.01 * kDistance, 0.0}, Vec3::Zero());
+  rider.object.restitution = 0.0;
+  Lattice lattice = with_contact_frequency(test::lattice_of({rider, support}));
+  PointContacts contacts;
+  const Components pieces = components(lattice);
+  const double dt = 0.3 / kFrequency;
+  double fastest = 0.0;  // of the last second
+  for (int n = 0; n * dt < 4.0; ++n) {
+    contacts.refresh(lattice, pieces, n == 0, false);
+    clear_forces(lattice);
+    lattice.force[0].y() = -kLoad;
+    contacts.add_forces(lattice, dt);
+    lattice.motion[0].velocity += lattice.force[0] * dt;
+    lattice.motion[0].position += lattice.motion[0].velocity * dt;
+    if (n * dt > 3.0) fastest = std::max(fastest, lattice.motion[0].velocity.norm());
+  }
+  const double depth = kDistance - (lattice.motion[0].position.y() - 1.0);
+  EXPECT_NEAR(depth, kLoad / (kFrequency * kFrequency * 0.5), 1e-6);
+  EXPECT_LT(fastest, 1e-6);
 }
 
 // Three points around a right angle; the ends are 1.56 m apart and not joined.
@@ -307,7 +334,7 @@ TEST(PointContacts, ListMissesNothingHoweverPointsFly) {
       contacts.refresh(listed, pieces, n == 0, false);
       clear_forces(listed);
       clear_forces(all);
-      contacts.add_forces(listed);
+      contacts.add_forces(listed, dt);
       add_forces_of_all_pairs(all);
       move(listed, dt);
       move(all, dt);
