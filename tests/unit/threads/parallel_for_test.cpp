@@ -6,6 +6,7 @@
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,30 @@ class ParallelFor : public testing::TestWithParam<int> {
   Threads threads_{GetParam()};
 };
 INSTANTIATE_TEST_SUITE_P(Threads, ParallelFor, testing::Values(1, 2, 4));
+
+TEST_P(ParallelFor, RunsEachOfSomeTasksOnce) {
+  for (std::size_t count : {0u, 1u, 2u, 3u, 50u}) {
+    std::vector<std::atomic<int>> visits(count);
+    parallel_tasks(count, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) ++visits[i];
+    });
+    for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(visits[i], 1) << i << " of " << count;
+  }
+}
+
+TEST_P(ParallelFor, TellsTheFailureOfTheLowestTask) {
+  const auto fail = [](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      if (i % 3 == 1) throw std::runtime_error(std::to_string(i));
+    }
+  };
+  try {
+    parallel_tasks(20, fail);
+    ADD_FAILURE();
+  } catch (const std::runtime_error& failure) {
+    EXPECT_STREQ(failure.what(), "1");
+  }
+}
 
 TEST_P(ParallelFor, VisitsEveryIndexOnce) {
   for (std::size_t grain : {1u, 7u, 64u}) {
