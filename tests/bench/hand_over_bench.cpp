@@ -2,7 +2,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include "bullet_bridge/co_simulation.h"
 #include "bullet_bridge/hand_over.h"
+#include "core/operators/time_operator.h"
 #include "tests/bench/bench_models.h"
 #include "tests/bench/bullet_world.h"
 
@@ -42,6 +44,17 @@ void to_flexible(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(thaw(lattice, lattice.dynamic_points, *proxy));
   state.counters["points"] = static_cast<double>(lattice.motion.size());
 }
+// What the two are compared with: one substep of the same lattice, springs and integration alone.
+void one_substep(benchmark::State& state) {
+  Lattice lattice = spinning_brick(state.range(0));
+  TimeOperator time_operator(lattice, Integrator::kSymplecticEuler, kWorldSprings);
+  const double dt = time_operator.largest_step();
+  for (auto _ : state) benchmark::DoNotOptimize(time_operator.advance_springs_only(100, dt));
+  state.counters["per_substep"] = benchmark::Counter(
+      100.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(one_substep)->Name("handover/100_substeps")->Arg(1000)->Unit(benchmark::kMicrosecond);
+
 BENCHMARK(to_flexible)->Name("handover/to_flexible")->Arg(1000)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
