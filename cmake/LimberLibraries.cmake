@@ -22,6 +22,8 @@ pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)
 # Its CMake package in Debian 12 wants Draco beside it; pkg-config does not.
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
+# Lua built as C++: its errors unwind our functions. Plain `lua5.4` jumps over their destructors.
+pkg_check_modules(LUA REQUIRED IMPORTED_TARGET lua5.4-c++)
 find_package(hwy REQUIRED)
 find_package(TBB REQUIRED)
 find_package(CLI11 REQUIRED)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/model/errors.h"
+#include "demos/cli/api_command.h"
 #include "demos/cli/command.h"
 #include "demos/cli/compare_command.h"
 #include "demos/cli/info_command.h"
@@ -88,6 +89,7 @@ Action parse(int argc, const char* const* argv) {
   add_model_command(app, chosen);
   add_info_command(app, chosen);
   add_stability_command(app, chosen);
+  add_api_command(app, chosen);
   refuse_unknown_command(app, argc, argv);
   try {
     app.parse(argc, argv);

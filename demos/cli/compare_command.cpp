@@ -45,7 +45,10 @@ ComparedRuns run_all(const CompareOptions& options, const Scene& scene, Terminal
     const std::string what = options.runs == 1
                                  ? name_of(policy)
                                  : fmt::format("{} {} of {}", name_of(policy), k + 1, options.runs);
-    return run(scene, run_options(options, policy, k), [&](double done) { bar.show(what, done); });
+    RunResult result =
+        run(scene, run_options(options, policy, k), [&](double done) { bar.show(what, done); });
+    if (result.failure) throw SimulationError(*result.failure);
+    return result;
   };
   ComparedRuns runs;
   for (int k = 0; k < options.runs; ++k) {
@@ -58,7 +61,7 @@ ComparedRuns run_all(const CompareOptions& options, const Scene& scene, Terminal
 }
 
 void compare_scene(const CompareOptions& options, Terminal& terminal) {
-  const Scene scene = build_scene(options.scene, options.changes);
+  const Scene scene = scene_of(options, terminal);
   require_other_file(options.scene, options.json);
   require_json_target(options);
   say_notes(scene.notes, terminal);
@@ -94,6 +97,7 @@ void add_compare_command(CLI::App& app, Action& chosen) {
   add_threads(*command, *options);
   add_json(*command, *options);
   add_set(*command, *options);
+  add_inputs(*command, *options);
   command->footer(kFooter);
   command->callback([options, &chosen] {
     chosen = [options](Terminal& terminal) { compare_scene(*options, terminal); };

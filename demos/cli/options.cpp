@@ -10,6 +10,7 @@
 #include "core/model/errors.h"
 #include "core/storage/atomic_file.h"
 #include "demos/cli/numbers.h"
+#include "demos/scripting/script_scene.h"
 
 namespace limber::demos {
 namespace {
@@ -67,8 +68,9 @@ SpringPrecision parse_springs(const std::string& text) {
 
 void add_scene(CLI::App& command, SceneOptions& options, bool required) {
   command
-      .add_option("SCENE", options.scene,
-                  "name of a scene (`limber run` alone lists them) or a model file")
+      .add_option(
+          "SCENE", options.scene,
+          "name of a scene (`limber run` alone lists them), a script (.lua) or a model file")
       ->required(required)
       ->type_name("");
 }
@@ -87,6 +89,14 @@ void add_set(CLI::App& command, SceneOptions& options) {
       ->type_name("NAME=VALUE")
       ->expected(1)
       ->take_all();
+}
+
+void add_inputs(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--inputs", [&](const std::string& file) { options.inputs = read_inputs(file); },
+          "what a player does, for scripts: lines of a time in s, a name and a number")
+      ->type_name("FILE");
 }
 
 void add_seconds(CLI::App& command, SceneOptions& options) {
@@ -161,6 +171,13 @@ void write_json(const OutputOptions& options, const std::string& text, Terminal&
   } else {
     write_file_atomically(options.json, text);
   }
+}
+
+Scene scene_of(const SceneOptions& options, Terminal& terminal) {
+  ScriptSettings settings;
+  settings.inputs = options.inputs;
+  settings.printed = &terminal.err;
+  return build_scene(options.scene, options.changes, settings);
 }
 
 void require_other_file(const std::string& input, const std::string& output) {

@@ -7,6 +7,7 @@
 #include "demos/cli/command.h"
 #include "demos/scenes/scene.h"
 #include "demos/scenes/simulation.h"
+#include "demos/scripting/script.h"
 
 namespace limber::demos {
 
@@ -19,6 +20,7 @@ struct OutputOptions {
 struct SceneOptions : OutputOptions {
   std::string scene;
   ParameterValues changes;  // of --set
+  std::vector<InputEvent> inputs;
   RunOptions run;
   int threads = 1;
 };
@@ -27,6 +29,7 @@ struct SceneOptions : OutputOptions {
 // is parsed and refused with an InputError.
 void add_scene(CLI::App& command, SceneOptions& options, bool required);
 void add_set(CLI::App& command, SceneOptions& options);
+void add_inputs(CLI::App& command, SceneOptions& options);
 void add_seconds(CLI::App& command, SceneOptions& options);
 void add_tick(CLI::App& command, SceneOptions& options);
 void add_policy(CLI::App& command, SceneOptions& options);
@@ -34,6 +37,9 @@ void add_integrator(CLI::App& command, SceneOptions& options);
 void add_springs(CLI::App& command, SceneOptions& options);
 void add_threads(CLI::App& command, SceneOptions& options);
 void add_json(CLI::App& command, OutputOptions& options);
+
+// The scene; what its script prints goes to standard error.
+Scene scene_of(const SceneOptions& options, Terminal& terminal);
 
 // Refuses an output that is the input: it would be gone.
 void require_other_file(const std::string& input, const std::string& output);

@@ -90,7 +90,7 @@ void render_model(const RenderOptions& options, Terminal& terminal) {
 }
 
 void render_scene(const RenderOptions& options, Terminal& terminal) {
-  const Scene scene = build_scene(options.scene, options.changes);
+  const Scene scene = scene_of(options, terminal);
   require_povray();
   require_writable(options.image);
   say_notes(scene.notes, terminal);
@@ -110,7 +110,9 @@ void render(const RenderOptions& options, Terminal& terminal) {
     throw InputError(
         {"command line", "--set is for a scene, at a --time", "add --time, or leave out --set"});
   }
-  if (std::filesystem::is_regular_file(options.scene)) return render_model(options, terminal);
+  const std::filesystem::path file(options.scene);
+  if (std::filesystem::is_regular_file(file) && file.extension() != ".lua")
+    return render_model(options, terminal);
   throw InputError({"command line", "--time is missing",
                     "name the instant to show; only a model file may go without"});
 }
@@ -157,6 +159,7 @@ void add_render_command(CLI::App& app, Action& chosen) {
   add_policy(*command, *options);
   add_tick(*command, *options);
   add_set(*command, *options);
+  add_inputs(*command, *options);
   command->footer(kLegend);
   command->callback([options, &chosen] {
     chosen = [options](Terminal& terminal) { render(*options, terminal); };

@@ -21,7 +21,7 @@ RunResult run_with_progress(const SceneOptions& options, const Scene& scene, Ter
 }
 
 void run_scene(const SceneOptions& options, Terminal& terminal) {
-  const Scene scene = build_scene(options.scene, options.changes);
+  const Scene scene = scene_of(options, terminal);
   require_other_file(options.scene, options.json);
   require_json_target(options);
   say_notes(scene.notes, terminal);
@@ -32,6 +32,7 @@ void run_scene(const SceneOptions& options, Terminal& terminal) {
   }
   write_json(options, run_json(result, options.run.policy), terminal);
   if (tables_wanted(options)) terminal.out << run_report(result, options.run.policy);
+  if (result.failure) throw SimulationError(*result.failure);
 }
 
 void list_scenes(Terminal& terminal) { terminal.out << scene_list(scene_library()); }
@@ -60,6 +61,7 @@ void add_run_command(CLI::App& app, Action& chosen) {
   add_threads(*command, *options);
   add_json(*command, *options);
   add_set(*command, *options);
+  add_inputs(*command, *options);
   command->callback([command, options, &chosen] {
     if (options->scene.empty()) {
       refuse_options_without_scene(*command);

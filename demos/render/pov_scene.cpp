@@ -111,20 +111,74 @@ std::string box_texture(const Vec3& colour) {
       pov_colour(colour), pov_colour(0.72 * colour));
 }
 
-std::string box_text(const Snapshot::Box& b) {
-  const Vec3& half = b.box.half_extents;
-  const double bevel = std::min(kBevel * half.minCoeff(), kMostBevel_m);
-  return fmt::format("object {{ Rounded_Box({}, {}) {} {} }}\n", pov(half), pov(bevel),
-                     box_texture(b.box.colour), pose_text(b.rotation, b.centre));
+// What POV-Ray draws for a shape, without texture and place.
+struct ShapeText {
+  std::string operator()(const bullet::BoxShape& box) const {
+    const double bevel = std::min(kBevel * box.half_extents.minCoeff(), kMostBevel_m);
+    return fmt::format("object {{ Rounded_Box({}, {})", pov(box.half_extents), pov(bevel));
+  }
+  std::string operator()(const bullet::SphereShape& sphere) const {
+    return fmt::format("sphere {{ <0,0,0>, {}", pov(sphere.radius));
+  }
+  std::string operator()(const bullet::CapsuleShape& capsule) const {
+    const std::string low = pov(Vec3(0.0, -0.5 * capsule.height, 0.0));
+    const std::string high = pov(Vec3(0.0, 0.5 * capsule.height, 0.0));
+    return fmt::format(
+        "union {{ cylinder {{ {0}, {1}, {2} }} sphere {{ {0}, {2} }} "
+        "sphere {{ {1}, {2} }}",
+        low, high, pov(capsule.radius));
+  }
+  std::string operator()(const bullet::CylinderShape& cylinder) const {
+    return round_text(cylinder.height, cylinder.radius, cylinder.radius);
+  }
+  std::string operator()(const bullet::ConeShape& cone) const {
+    return round_text(cone.height, cone.radius, 0.0);
+  }
+  std::string operator()(const bullet::HullShape& hull) const { return mesh_text(hull); }
+  std::string operator()(const bullet::MeshShape& mesh) const { return mesh_text(mesh); }
+  std::string operator()(const bullet::TerrainShape& terrain) const { return mesh_text(terrain); }
+
+  static std::string round_text(double height, double low_radius, double high_radius) {
+    return fmt::format("cone {{ <0,{},0>, {}, <0,{},0>, {}", pov(-0.5 * height), pov(low_radius),
+                       pov(0.5 * height), pov(high_radius));
+  }
+
+  static std::string mesh_text(const bullet::StageShape& shape) {
+    const bullet::TriangleList list = bullet::triangles_of(shape);
+    std::string text = "mesh {";
+    for (const auto& t : list.triangles) {
+      text += fmt::format(" triangle {{ {},{},{} }}", pov(list.positions[std::size_t(t[0])]),
+                          pov(list.positions[std::size_t(t[1])]),
+                          pov(list.positions[std::size_t(t[2])]));
+    }
+    return text;
+  }
+};
+
+std::string rigid_text(const Snapshot::Rigid& rigid) {
+  return fmt::format("{} {} {} }}\n", std::visit(ShapeText{}, rigid.body.shape),
+                     box_texture(rigid.body.colour), pose_text(rigid.rotation, rigid.centre));
+}
+
+std::string own_light_text(const Light& light) {
+  return fmt::format("light_source {{ {} rgb {}{} }}\n", pov(light.position), pov(light.colour),
+                     light.shadows ? "" : " shadowless");
+}
+
+std::string lights_of(const Snapshot& snapshot) {
+  if (snapshot.lights.empty()) return light_text(snapshot.camera);
+  std::string text;
+  for (const Light& light : snapshot.lights) text += own_light_text(light);
+  return text;
 }
 
 }  // namespace
 
 std::string pov_scene(const Snapshot& snapshot, const PictureSize& size) {
   std::string text = kPrelude;
-  text += camera_text(snapshot.camera, size) + light_text(snapshot.camera);
+  text += camera_text(snapshot.camera, size) + lights_of(snapshot);
   if (snapshot.floor) text += kFloor;
-  for (const Snapshot::Box& box : snapshot.boxes) text += box_text(box);
+  for (const Snapshot::Rigid& rigid : snapshot.rigid) text += rigid_text(rigid);
   for (const Snapshot::Body& body : snapshot.bodies) text += pov_body(body);
   return text;
 }

@@ -8,17 +8,20 @@
 #include "core/model/validate.h"
 #include "core/modeller/softness.h"
 #include "demos/scenes/scenes.h"
+#include "demos/scripting/script_scene.h"
 
 namespace limber::demos {
 namespace {
 
-// The name of a scene, or a model file.
-SceneEntry find_scene(const std::string& name) {
-  for (const SceneEntry& entry : scene_library()) {
-    if (entry.name == name) return entry;
+// The name of a scene that ships, a script or a model file.
+SceneEntry find_scene(const std::string& name, const ScriptSettings& settings) {
+  if (const auto shipped = shipped_script(name)) return script_entry(*shipped, settings);
+  const std::filesystem::path file(name);
+  if (std::filesystem::is_regular_file(file)) {
+    if (file.extension() != ".lua") return drop_of(name);
+    return script_entry(script_in_file(file, settings.limits.file_bytes), settings);
   }
-  if (std::filesystem::is_regular_file(name)) return drop_of(name);
-  throw InputError({"scene " + name, "there is no scene of that name, nor a model file",
+  throw InputError({"scene " + name, "there is no scene of that name, nor a script or model file",
                     "did you mean " + std::string(nearest_name(scene_library(), name)) +
                         "? 'limber run' lists them all"});
 }
@@ -45,6 +48,9 @@ ParameterValues values_for(const SceneEntry& entry, const ParameterValues& chang
   for (const auto& [name, value] : changes) {
     const std::string where = "scene " + entry.name + ": parameter " + name;
     const auto found = std::ranges::find(entry.parameters, name, &Parameter::name);
+    if (entry.parameters.empty()) {
+      throw InputError({where, "the scene has no parameters", "leave --set out"});
+    }
     if (found == entry.parameters.end()) {
       throw InputError({where, "there is none of that name",
                         "did you mean " + std::string(nearest_name(entry.parameters, name)) + "?"});
@@ -76,14 +82,34 @@ void note_softness(Scene& scene, const std::string& name) {
 
 }  // namespace
 
+RigidBody rigid_box(const std::string& name, const Vec3& half_extents_m, const Vec3& centre_m,
+                    double mass_kg) {
+  RigidBody body;
+  body.shape = bullet::BoxShape{half_extents_m};
+  body.name = name;
+  body.centre = centre_m;
+  body.mass = mass_kg;
+  return body;
+}
+
 const std::vector<SceneEntry>& scene_library() {
-  static const std::vector<SceneEntry> scenes = {tipsy_teapot(), jelly_and_brick(), leaf_magic(),
-                                                 swing()};
+  static const std::vector<SceneEntry> scenes = [] {
+    std::vector<SceneEntry> all;
+    for (const std::string& name : shipped_scripts()) {
+      all.push_back(script_entry(*shipped_script(name), {}));
+    }
+    return all;
+  }();
   return scenes;
 }
 
 Scene build_scene(const std::string& name, const ParameterValues& changes) {
-  const SceneEntry entry = find_scene(name);
+  return build_scene(name, changes, {});
+}
+
+Scene build_scene(const std::string& name, const ParameterValues& changes,
+                  const ScriptSettings& settings) {
+  const SceneEntry entry = find_scene(name, settings);
   Scene scene = entry.build(values_for(entry, changes));
   for (const PhysicalModel& model : scene.objects) require_valid(model);
   note_softness(scene, name);

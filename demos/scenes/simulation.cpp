@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "bullet_bridge/stage.h"
+#include "core/model/validate.h"
 #include "core/operators/boundary_operator.h"
 #include "core/operators/strands.h"
 #include "core/operators/time_operator.h"
@@ -111,7 +111,7 @@ struct Simulation::State {
   Scene scene;
   RunOptions options;
   bullet::Stage stage;
-  std::vector<int> boxes;
+  std::unique_ptr<Behaviour> behaviour;
   double time = 0.0;
   double wall = 0.0;
   std::vector<TickSample> samples;
@@ -130,16 +130,20 @@ struct Simulation::State {
     if (options.seconds <= 0.0) options.seconds = scene.seconds;
     if (options.tick <= 0.0) options.tick = scene.tick;
     if (scene.floor) stage.add_floor(scene.floor_friction);
-    for (const RigidBox& box : scene.boxes) {
-      boxes.push_back(
-          stage.add_box({box.half_extents, box.centre, box.mass, box.friction, box.restitution}));
-    }
+    for (const RigidBody& body : scene.bodies) stage.add_body(body);
+    for (const bullet::StageJoint& joint : scene.joints) stage.add_joint(joint);
     stage.co_simulation().set_air(scene.air);
-    for (const PhysicalModel& model : scene.objects) {
-      remember_start(model);
-      stage.co_simulation().add(model);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+      remember_start(scene.objects[i]);
+      stage.co_simulation().add(scene.objects[i], integration_of_object(i));
     }
     take_sample();
+  }
+
+  std::optional<bullet::Integration> integration_of_object(std::size_t object) const {
+    const auto own = scene.integration.find(object);
+    if (own == scene.integration.end()) return {};
+    return own->second;
   }
 
   void remember_start(const PhysicalModel& model) {
@@ -264,17 +268,42 @@ struct Simulation::State {
 };
 
 Simulation::Simulation(const Scene& scene, const RunOptions& options)
-    : state_(std::make_unique<State>(scene, options)) {}
+    : state_(std::make_unique<State>(scene, options)) {
+  if (!scene.behaviour) return;
+  state_->behaviour = scene.behaviour();
+  state_->behaviour->start(*this);
+}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
 void Simulation::advance_tick() {
   const Clock::time_point start = Clock::now();
+  if (state_->behaviour) state_->behaviour->before_tick(*this, state_->options.tick);
   state_->stage.step(state_->options.tick);
   state_->wall += seconds_since(start);
   state_->time += state_->options.tick;
   state_->take_sample();
+  if (state_->behaviour) state_->behaviour->after_tick(*this);
 }
+
+std::size_t Simulation::spawn(PhysicalModel model, std::optional<bullet::Integration> integration) {
+  require_valid(model);
+  state_->stage.co_simulation().add(model, integration);
+  state_->remember_start(model);
+  state_->scene.objects.push_back(std::move(model));
+  return state_->scene.objects.size() - 1;
+}
+
+std::size_t Simulation::add_body(const RigidBody& body) {
+  state_->scene.bodies.push_back(body);
+  return state_->stage.add_body(body);
+}
+
+void Simulation::set_camera(const Camera& camera) { state_->scene.camera = camera; }
+
+const Scene& Simulation::scene() const { return state_->scene; }
+bullet::Stage& Simulation::stage() { return state_->stage; }
+const bullet::Stage& Simulation::stage() const { return state_->stage; }
 
 double Simulation::time_s() const { return state_->time; }
 
@@ -303,9 +332,11 @@ Snapshot Simulation::snapshot() const {
     }
     snapshot.bodies.push_back(std::move(body));
   }
-  for (std::size_t b = 0; b < state_->boxes.size(); ++b) {
-    const auto [centre, rotation] = state_->stage.box_pose(state_->boxes[b]);
-    snapshot.boxes.push_back({state_->scene.boxes[b], centre, rotation});
+  snapshot.lights = state_->scene.lights;
+  for (std::size_t b = 0; b < state_->scene.bodies.size(); ++b) {
+    if (!state_->stage.has_body(b)) continue;
+    const bullet::StageMotion motion = state_->stage.motion(b);
+    snapshot.rigid.push_back({state_->scene.bodies[b], motion.centre, motion.rotation});
   }
   if (const double zoom = snapshot.camera.zoom; zoom > 0.0) {
     const Box3 box = box_of_most(seen_points(snapshot));
@@ -367,14 +398,21 @@ RunResult Simulation::result() const {
 RunResult run(const Scene& scene, const RunOptions& options,
               const std::function<void(double)>& progress) {
   Simulation simulation(scene, options);
+  std::optional<Diagnostic> failure;
   const double seconds = options.seconds > 0.0 ? options.seconds : scene.seconds;
   const double tick = options.tick > 0.0 ? options.tick : scene.tick;
   const auto ticks = static_cast<int>(std::ceil(seconds / tick - 1e-9));
-  for (int n = 0; n < ticks; ++n) {
-    simulation.advance_tick();
+  for (int n = 0; n < ticks && !failure; ++n) {
+    try {
+      simulation.advance_tick();
+    } catch (const BehaviourError& error) {
+      failure = error.diagnostic;
+    }
     if (progress) progress(static_cast<double>(n + 1) / ticks);
   }
-  return simulation.result();
+  RunResult result = simulation.result();
+  result.failure = std::move(failure);
+  return result;
 }
 
 double spring_rate(const Scene& scene, SpringPrecision precision, double wall_seconds) {

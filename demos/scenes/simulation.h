@@ -104,6 +104,8 @@ struct RunResult {
   std::vector<BodySummary> summaries;
   std::vector<TickSample> samples;
   std::vector<std::string> notes;  // the scene's, as text
+  // Why the scene's behaviour ended the run before its time; all else is of what ran until then.
+  std::optional<Diagnostic> failure;
 };
 
 // What a picture needs at one instant.
@@ -121,8 +123,8 @@ struct Snapshot {
     std::vector<bool> flexible;  // one per triangle: is it part of a lattice just now
     std::vector<RopeLength> strands = {};
   };
-  struct Box {
-    RigidBox box;
+  struct Rigid {
+    RigidBody body;
     Vec3 centre;
     Mat3 rotation;
   };
@@ -130,28 +132,46 @@ struct Snapshot {
   bool floor = true;
   Camera camera;
   std::vector<Body> bodies;
-  std::vector<Box> boxes;
+  std::vector<Rigid> rigid;
+  std::vector<Light> lights = {};
+};
+
+// What a behaviour throws when it fails: the run ends with what it has.
+class BehaviourError : public SimulationError {
+ public:
+  using SimulationError::SimulationError;
 };
 
 // A scene that is running: Bullet's world and Limber in it.
 class Simulation {
  public:
+  // Throws BehaviourError when the scene's behaviour fails to start.
   Simulation(const Scene& scene, const RunOptions& options);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 
-  // One tick. Throws SimulationError when a body blows up, naming it.
+  // One tick. Throws SimulationError when a body blows up, naming it, and BehaviourError.
   void advance_tick();
   double time_s() const;
   Snapshot snapshot() const;
   RunResult result() const;  // up to now
+
+  // More things, between ticks; both return the index in scene().
+  std::size_t spawn(PhysicalModel model, std::optional<bullet::Integration> integration = {});
+  std::size_t add_body(const RigidBody& body);
+  void set_camera(const Camera& camera);
+
+  const Scene& scene() const;  // with what was added
+  bullet::Stage& stage();
+  const bullet::Stage& stage() const;
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
 
-// Runs a scene to its end. `progress`, where given, is called after every tick with 0..1.
+// Runs a scene to its end, or until its behaviour fails. `progress`, where given, is called after
+// every tick with 0..1.
 RunResult run(const Scene& scene, const RunOptions& options,
               const std::function<void(double)>& progress = {});
 

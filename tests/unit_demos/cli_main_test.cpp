@@ -74,7 +74,7 @@ TEST(CliMain, RefusesAnUnwritableTargetBeforeItRuns) {
 TEST(CliMain, NamesWhatWasTyped) {
   EXPECT_EQ(limber({"fly"}).err,
             "limber: command line: there is no command 'fly'; the commands are run, compare, "
-            "render, model, info, stability\n");
+            "render, model, info, stability, api\n");
   EXPECT_EQ(limber({"run", any_scene(), "--fly", "3"}).err,
             "limber: command line: '--fly 3' is not understood; `limber run --help` says what is "
             "possible\n");

@@ -15,10 +15,10 @@
 namespace limber::demos {
 namespace {
 
-using testing::HasSubstr;
 using test::contents;
 using test::TemporaryFolder;
 using test::write;
+using testing::HasSubstr;
 using testing::Not;
 
 // Two triangles that share the edge 0-1: the floor and a wall that leans by `bend` from it.
@@ -100,7 +100,8 @@ TEST(PovScene, TellsTheStatesOfATriangleApart) {
   EXPECT_THAT(flexible, HasSubstr("cylinder"));
 }
 
-// The first triangle is of clear glass, the second opaque: two meshes, one of them with an interior.
+// The first triangle is of clear glass, the second opaque: two meshes, one of them with an
+// interior.
 TEST(PovScene, RefractsLightInWhatIsTransparent) {
   EXPECT_THAT(pov_scene(snapshot_of(folded_sheet(0.2)), {}), Not(HasSubstr("interior")));
   SurfaceModel surface = folded_sheet(0.2);
@@ -123,8 +124,8 @@ TEST(PovScene, WritesTheImagesOfTheAxesAsRows) {
   Snapshot snapshot;
   Mat3 quarter_turn_about_y;
   quarter_turn_about_y << 0, 0, 1, 0, 1, 0, -1, 0, 0;  // x -> -z, z -> x
-  snapshot.boxes.push_back(
-      {{"b", Vec3(1, 1, 1), Vec3::Zero()}, Vec3(7, 8, 9), quarter_turn_about_y});
+  snapshot.rigid.push_back(
+      {rigid_box("b", Vec3(1, 1, 1), Vec3::Zero(), 0.0), Vec3(7, 8, 9), quarter_turn_about_y});
   EXPECT_THAT(pov_scene(snapshot, {}), HasSubstr("matrix <0,0,-1, 0,1,0, 1,0,0, 7,8,9>"));
 }
 
@@ -171,9 +172,10 @@ TEST(PovScene, IsNotMirrored) {
   if (std::system("povray --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no POV-Ray";
   Snapshot snapshot;
   snapshot.camera = {{0.0, 1.0, 4.0}, {0.0, 0.5, 0.0}, 40.0};
-  RigidBox red{"red", Vec3(0.4, 0.4, 0.4), Vec3(0.8, 0.4, 0.0)};  // +x is right, seen from +z
+  // +x is right, seen from +z
+  RigidBody red = rigid_box("red", Vec3(0.4, 0.4, 0.4), Vec3(0.8, 0.4, 0.0), 0.0);
   red.colour = {0.9, 0.02, 0.02};
-  snapshot.boxes.push_back({red, red.centre, Mat3::Identity()});
+  snapshot.rigid.push_back({red, red.centre, Mat3::Identity()});
   const TemporaryFolder folder;
   write(folder / "scene.pov", pov_scene(snapshot, {60, 40}));
   const std::string command =

@@ -18,7 +18,7 @@ TeapotRun run_to_the_end(Policy policy, std::size_t k) {
   Simulation simulation(scene, options);
   const long ticks = std::lround(scene.seconds / scene.tick);
   for (long n = 0; n < ticks; ++n) simulation.advance_tick();
-  return {simulation.result(), simulation.snapshot().boxes};
+  return {simulation.result(), simulation.snapshot().rigid};
 }
 
 }  // namespace

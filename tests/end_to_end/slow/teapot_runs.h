@@ -10,7 +10,7 @@ namespace limber::demos::test {
 // One full run of tipsy_teapot, 4 s.
 struct TeapotRun {
   RunResult result;
-  std::vector<Snapshot::Box> boxes;  // as they lie at the end
+  std::vector<Snapshot::Rigid> boxes;  // as they lie at the end
 };
 
 // The k-th run of a method (k shortens the substep as `limber compare --noise` does). A run takes

@@ -125,10 +125,10 @@ TEST(TipsyTeapot, NeverHasMoreEnergyThanAtTheStart) {
 TEST(TipsyTeapot, KnocksTheBlockOver) {
   const auto& boxes = teapot_run(Policy::kSwitching).boxes;
   const auto block = std::find_if(boxes.begin(), boxes.end(),
-                                  [](const Snapshot::Box& b) { return b.box.name == "block"; });
+                                  [](const Snapshot::Rigid& b) { return b.body.name == "block"; });
   ASSERT_NE(block, boxes.end());
   EXPECT_LT(std::abs(block->rotation(1, 1)), 0.5);
-  EXPECT_LT(block->centre.y(), block->box.half_extents.y());
+  EXPECT_LT(block->centre.y(), std::get<bullet::BoxShape>(block->body.shape).half_extents.y());
 }
 
 }  // namespace

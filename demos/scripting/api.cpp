@@ -1,0 +1,194 @@
+#include "demos/scripting/api.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/model/errors.h"
+#include "core/model/nearest_name.h"
+#include "demos/scripting/lua_state.h"
+#include "demos/scripting/script.h"
+
+namespace limber::demos {
+namespace {
+
+const ApiFunction& function_of(lua_State* lua) {
+  return *static_cast<const ApiFunction*>(lua_touserdata(lua, lua_upvalueindex(1)));
+}
+
+// Is the first argument what a method is of?
+bool has_receiver(lua_State* lua, const ApiFunction& function) {
+  return luaL_testudata(lua, 1, function.owner.c_str()) != nullptr;
+}
+
+int checked_call(lua_State* lua, const ApiFunction& function, const std::string& where) {
+  const int table = function.is_method() ? 2 : 1;
+  if (function.is_method() && !has_receiver(lua, function)) {
+    raise(lua,
+          fmt::format("{}: it is called on a {}; write it with a colon", where, function.owner));
+  }
+  if (lua_gettop(lua) > table) {
+    raise(lua,
+          fmt::format("{}: it takes one table of named fields; write {}{{...}}", where, where));
+  }
+  if (function.running) script_of(lua).require_running(where);
+  return function.call(Arguments(lua, table, function.fields, where));
+}
+
+// What every function of the table is for Lua. Errors of ours become Lua's, with the place.
+int call_function(lua_State* lua) {
+  const ApiFunction& function = function_of(lua);
+  const std::string where = function.full_name();
+  std::string message;
+  try {
+    return checked_call(lua, function, where);
+  } catch (const InputError& error) {
+    message = error.diagnostic.text();
+  } catch (const std::bad_alloc&) {
+    message = where + ": there is not enough memory; make it smaller";
+  } catch (const std::exception& error) {
+    message = fmt::format("{}: {}", where, error.what());
+  }
+  raise(lua, message);
+}
+
+// __index of a type: its methods, which are in the upvalue.
+int method_of(lua_State* lua) {
+  lua_pushvalue(lua, 2);
+  if (lua_rawget(lua, lua_upvalueindex(1)) != LUA_TNIL) return 1;
+  struct Name {
+    std::string name;
+  };
+  std::vector<Name> names;
+  for (lua_pushnil(lua); lua_next(lua, lua_upvalueindex(1)) != 0; lua_pop(lua, 1)) {
+    names.push_back({lua_tostring(lua, -2)});
+  }
+  std::ranges::sort(names, {}, &Name::name);
+  const char* const wanted = lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : "?";
+  const char* const type = lua_tostring(lua, lua_upvalueindex(2));
+  raise(lua, fmt::format("a {} has no '{}'; did you mean '{}'?", type, wanted,
+                         nearest_name(names, wanted)));
+}
+
+int refuse_new_field(lua_State* lua) {
+  raise(lua, "fields of these cannot be set; use the methods that set things");
+}
+
+int type_name(lua_State* lua) {
+  luaL_getmetafield(lua, 1, "__name");
+  return 1;
+}
+
+// The functions of one owner, into the table on top of the stack.
+void add_functions(lua_State* lua, const std::string& owner) {
+  for (const ApiFunction& function : api_functions()) {
+    if (function.owner != owner) continue;
+    lua_pushlightuserdata(lua, const_cast<ApiFunction*>(&function));
+    lua_pushcclosure(lua, call_function, 1);
+    lua_setfield(lua, -2, function.name.c_str());
+  }
+}
+
+// The metatable is on top of the stack and goes.
+void finish_type(lua_State* lua, const ApiOwner& type) {
+  lua_newtable(lua);
+  add_functions(lua, type.name);
+  lua_pushstring(lua, type.name.c_str());
+  lua_pushcclosure(lua, method_of, 2);
+  lua_setfield(lua, -2, "__index");
+  lua_pushcfunction(lua, refuse_new_field);
+  lua_setfield(lua, -2, "__newindex");
+  lua_pushcfunction(lua, type_name);
+  lua_setfield(lua, -2, "__tostring");
+  lua_pop(lua, 1);
+}
+
+// Two variables with the same object are equal.
+template <class Handle>
+int same_handle(lua_State* lua) {
+  const Handle* a = as<Handle>(lua, 1);
+  const Handle* b = as<Handle>(lua, 2);
+  lua_pushboolean(lua, a && b && a->index == b->index);
+  return 1;
+}
+
+template <class Handle>
+void new_handle_type(lua_State* lua) {
+  new_type<Handle>(lua);
+  lua_pushcfunction(lua, same_handle<Handle>);
+  lua_setfield(lua, -2, "__eq");
+}
+
+void open_type(lua_State* lua, const ApiOwner& type) {
+  if (type.name == "model") new_type<ModelHandle>(lua);
+  if (type.name == "object") new_handle_type<ObjectHandle>(lua);
+  if (type.name == "body") new_handle_type<BodyHandle>(lua);
+  if (type.name == "flow") new_handle_type<FlowHandle>(lua);
+  finish_type(lua, type);
+}
+
+void open_library(lua_State* lua, const ApiOwner& library) {
+  lua_newtable(lua);
+  add_functions(lua, library.name);
+  lua_setglobal(lua, library.name.c_str());
+}
+
+}  // namespace
+
+bool ApiFunction::is_method() const {
+  const auto found = std::ranges::find(api_owners(), owner, &ApiOwner::name);
+  return found != api_owners().end() && found->is_type;
+}
+
+std::string ApiFunction::full_name() const {
+  if (owner.empty()) return name;
+  return owner + (is_method() ? ":" : ".") + name;
+}
+
+const std::vector<ApiFunction>& api_functions() {
+  static const std::vector<ApiFunction> functions = [] {
+    std::vector<ApiFunction> all;
+    for (auto group : {scene_functions, material_functions, shape_functions, model_functions,
+                       rigid_functions, thing_functions, wind_functions}) {
+      for (ApiFunction& function : group()) all.push_back(std::move(function));
+    }
+    return all;
+  }();
+  return functions;
+}
+
+const std::vector<ApiOwner>& api_owners() {
+  static const std::vector<ApiOwner> owners = {
+      {"", "The scene, and what happens in it.", false},
+      {"shape", "Flexible, breakable shapes: each makes a model of a material.", false},
+      {"rigid", "Bodies of Bullet's world that neither bend nor break.", false},
+      {"joint", "What joins rigid bodies to one another and to the world.", false},
+      {"wind", "Primitives that add up to the wind; without any the scene has no air.", false},
+      {"model",
+       "A shape with its material, before it is spawned. Several variables may hold the "
+       "same model; copy{} makes another.",
+       true},
+      {"object", "A model that was spawned: a lattice, a rigid body, or the pieces of either.",
+       true},
+      {"body", "A rigid body.", true},
+      {"flow", "A primitive of the wind.", true}};
+  return owners;
+}
+
+void open_api(lua_State* lua) {
+  open_vectors(lua);
+  open_materials(lua);
+  for (const ApiOwner& owner : api_owners()) {
+    if (owner.is_type) {
+      open_type(lua, owner);
+    } else if (!owner.name.empty()) {
+      open_library(lua, owner);
+    }
+  }
+  lua_pushglobaltable(lua);
+  add_functions(lua, "");
+  lua_pop(lua, 1);
+}
+
+}  // namespace limber::demos

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace limber::demos {
+
+// Where a script comes from: a file, or the program itself, which has the scenes that ship compiled
+// in.
+struct ScriptSource {
+  std::string name;  // for messages: the file as it was typed
+  std::string text;
+  std::filesystem::path folder;  // of the scene's modules and meshes; empty: compiled in
+};
+
+// Throws InputError for a file that cannot be read or is too large.
+ScriptSource script_in_file(const std::filesystem::path& file, std::size_t most_bytes);
+
+// The scene of this name that ships with Limber, and the names of all of them, ascending.
+std::optional<ScriptSource> shipped_script(const std::string& name);
+std::vector<std::string> shipped_scripts();
+
+// The file of this name in the folder of the source or below it. Throws InputError for a name that
+// leads out of it (also by links), for a source without a folder, and for what is no file.
+std::filesystem::path file_beside(const ScriptSource& source, const std::string& name);
+
+// The module `a.b`: the file a/b.lua beside the scene. Throws InputError likewise.
+ScriptSource module_beside(const ScriptSource& source, const std::string& module,
+                           std::size_t most_bytes);
+
+}  // namespace limber::demos
