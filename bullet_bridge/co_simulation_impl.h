@@ -61,7 +61,7 @@ class CoSimulation::Impl : public TickHooks {
   JointLoads joint_loads_;
   std::vector<std::pair<const btCollisionObject*, const btCollisionObject*>> passing_;
   bool thawed_in_tick_ = false;
-  bool air_before_ = false;  // was there air in the last tick?
+  bool air_before_ = false;                          // was there air in the last tick?
   std::unordered_set<const btRigidBody*> jointed_;   // of Bullet's world, at the tick's start
   std::vector<std::shared_ptr<PieceBody>> orphans_;  // joints still name them
   struct Push {
@@ -75,8 +75,8 @@ class CoSimulation::Impl : public TickHooks {
   double tick_ = 0.0;  // s, of the present tick
   bool roles_stale_ = true;
   bool stepped_lattice_ = false;
-  bool stepped_late_ = false;   // what the solver sent into a touch
-  bool thawing_late_ = false;   // after the solver: it has given gravity and the game's forces
+  bool stepped_late_ = false;  // what the solver sent into a touch
+  bool thawing_late_ = false;  // after the solver: it has given gravity and the game's forces
   std::size_t broken_in_tick_ = 0;
   std::optional<Diagnostic> failure_;
   std::vector<Diagnostic> notes_;

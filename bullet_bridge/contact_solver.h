@@ -49,8 +49,8 @@ class ContactSolver : public SubstepCoupling {
     shadows_ = {};
   }
 
-  // From the next tick on this goes on with the other's contacts too; of bodies that both know, with
-  // its own.
+  // From the next tick on this goes on with the other's contacts too; of bodies that both know,
+  // with its own.
   void take_over(ContactSolver&& other);
 
   // Forces besides, for this tick. After begin_tick().

@@ -18,8 +18,8 @@ class JointLoads {
   // Before Bullet solves.
   void begin(btDiscreteDynamicsWorld& world, const PieceIndex& index);
 
-  // After. Adds to the pieces' joint_load: the magnitude of each constraint's force, and that of the
-  // forces at the ends of half the piece's size that make its couple.
+  // After. Adds to the pieces' joint_load: the magnitude of each constraint's force, and that of
+  // the forces at the ends of half the piece's size that make its couple.
   void end();
 
  private:

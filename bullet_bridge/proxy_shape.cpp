@@ -128,9 +128,9 @@ std::unique_ptr<btCollisionShape> flat_box(Items items, btTransform& pose) {
   return shape;
 }
 
-// Do the points fill a box about the body's centre, along its axes? Bullet is faster with boxes, and
-// finds all corners of a contact at once. What is turned about those axes, as a cube may be that was
-// dented, stays a hull.
+// Do the points fill a box about the body's centre, along its axes? Bullet is faster with boxes,
+// and finds all corners of a contact at once. What is turned about those axes, as a cube may be
+// that was dented, stays a hull.
 bool is_box(std::span<const btVector3> points, const Box& box) {
   const double tolerance = kBoxTolerance * box.half().minCoeff();
   if (tolerance <= kBoxTolerance * kSmallestExtent) return false;  // flat

@@ -144,7 +144,8 @@ Path path_of(const btCollisionObject& object) {
   if (!body || body->isStaticObject()) return path;
   path.velocity = from_bullet(body->getLinearVelocity());
   path.angular_velocity = from_bullet(body->getAngularVelocity());
-  if (body->isActive() && !body->isKinematicObject()) path.gravity = from_bullet(body->getGravity());
+  if (body->isActive() && !body->isKinematicObject())
+    path.gravity = from_bullet(body->getGravity());
   if (dynamic_cast<const PieceBody*>(body)) {
     path.moments = from_bullet(body->getInvInertiaDiagLocal()).cwiseInverse();
   }
@@ -168,7 +169,8 @@ struct Pair {
 
   // m, a gap that counts as a touch.
   double slop() const {
-    return kSlop + blunting(*mine.shape, true) + blunting(*other.shape, partner.moments.has_value());
+    return kSlop + blunting(*mine.shape, true) +
+           blunting(*other.shape, partner.moments.has_value());
   }
 
   std::optional<Closest> closest_at(double t) const {
@@ -259,9 +261,9 @@ class Triangles : public btTriangleCallback {
     const btVector3 from = to_frame * body_.start.getOrigin();
     const btVector3 to = to_frame * body_.at(dt_).getOrigin();
     const Vec3 way = partner_.velocity * dt_;
-    const auto around = static_cast<btScalar>(
-        body_.reach + way.norm() + partner_.fastest_spin() * dt_ * partner_.reach + kSlop +
-        margin_);
+    const auto around =
+        static_cast<btScalar>(body_.reach + way.norm() +
+                              partner_.fastest_spin() * dt_ * partner_.reach + kSlop + margin_);
     low = high = from;
     low.setMin(to);
     high.setMax(to);
