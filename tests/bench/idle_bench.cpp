@@ -104,12 +104,12 @@ void bullet_idle(benchmark::State& state, Kind kind, Sleep sleep) {
   measure_ticks(state, bullet, sleep);
 }
 
-#define IDLE(what, name, ...)                     \
+#define IDLE(what, name, ...)                       \
   BENCHMARK_CAPTURE(what##_idle, name, __VA_ARGS__) \
-      ->Name(#what "/" #name)                     \
-      ->Arg(10)                                   \
-      ->Arg(100)                                  \
-      ->Arg(1000)                                 \
+      ->Name(#what "/" #name)                       \
+      ->Arg(10)                                     \
+      ->Arg(100)                                    \
+      ->Arg(1000)                                   \
       ->Unit(benchmark::kMicrosecond)
 
 IDLE(proxy, idle, Kind::kBox, Sleep::kNever);

@@ -25,7 +25,10 @@ void collision_shape(benchmark::State& state) {
   const std::vector<ShapeItem> items = ball(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(fit_proxy_shape(items));
 }
-BENCHMARK(collision_shape)->Name("handover/collision_shape")->Arg(500)->Unit(benchmark::kMicrosecond);
+BENCHMARK(collision_shape)
+    ->Name("handover/collision_shape")
+    ->Arg(500)
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace limber::bullet

@@ -1,6 +1,5 @@
-#include <gtest/gtest.h>
-
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -202,8 +201,7 @@ class Throw {
              piece_->getAngularVelocity()};
     partner = {partner.from, partner_->getWorldTransform(), partner_->getLinearVelocity(),
                partner_->getAngularVelocity()};
-    const btCollisionShape& other =
-        partner_hull_ ? *partner_hull_ : *partner_->getCollisionShape();
+    const btCollisionShape& other = partner_hull_ ? *partner_hull_ : *partner_->getCollisionShape();
     return Judge(*piece_hull_, other).closing_speed(piece, partner);
   }
 
@@ -215,9 +213,9 @@ class Throw {
   }
 
   int thaws_of_piece() const {
-    return static_cast<int>(std::count_if(
-        simulation_.switches().begin(), simulation_.switches().end(),
-        [](const SwitchRecord& r) { return r.object == 0 && r.books.to_flexible; }));
+    return static_cast<int>(
+        std::count_if(simulation_.switches().begin(), simulation_.switches().end(),
+                      [](const SwitchRecord& r) { return r.object == 0 && r.books.to_flexible; }));
   }
 
   btRigidBody& add(std::unique_ptr<btCollisionShape> shape, double mass, const Vec3& at) {
@@ -243,8 +241,8 @@ class Throw {
     }
     if (kind == Partner::kHull) return hull_of(sphere_points(20, random.between(0.1, 0.25)));
     if (kind == Partner::kCompound || kind == Partner::kStaticCompound) return two_boxes();
-    return std::make_unique<btBoxShape>(bt(random.between(0.05, 0.3), random.between(0.05, 0.3),
-                                           random.between(0.05, 0.3)));
+    return std::make_unique<btBoxShape>(
+        bt(random.between(0.05, 0.3), random.between(0.05, 0.3), random.between(0.05, 0.3)));
   }
 
   void add_partner(Random& random, const Vec3& towards, double speed) {
@@ -307,7 +305,7 @@ class Throw {
 
   static constexpr int kNodes = 17;
   Mesh mesh_;
-  std::array<float, kNodes * kNodes> heights_ = {};
+  std::array<float, kNodes* kNodes> heights_ = {};
   std::array<std::unique_ptr<btBoxShape>, 2> boxes_;
   World world_;
   CoSimulation simulation_;

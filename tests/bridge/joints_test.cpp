@@ -171,7 +171,8 @@ TEST(Joint, ThatPullsTooHardTurnsAProxyFlexible) {
     btRigidBody& body = *simulation.pieces().at(0).body;
     BallJoint above(world, body, local_place(body, Vec3::Zero()));
     btRigidBody& weight = world.add_box({0.1, 0.1, 0.1}, mass, {0.0, -0.4, 0.0});
-    BallJoint below(world, body, weight, local_place(body, -2.0 * kTop), btVector3(0, btScalar(0.1), 0));
+    BallJoint below(world, body, weight, local_place(body, -2.0 * kTop),
+                    btVector3(0, btScalar(0.1), 0));
     btJointFeedback of_the_game;
     below->setJointFeedback(&of_the_game);
     world.run(0.5, kTick);
