@@ -15,6 +15,7 @@ using ShapePointer = std::unique_ptr<btCollisionShape>;
 
 // Hulls are laid in by this share of their size, and stand out by as much (Bullet's margin).
 constexpr double kHullMargin = 0.01;
+constexpr double kRoundMargin = 0.01;  // cones likewise, of their smaller side
 
 btScalar scalar(double value) { return static_cast<btScalar>(value); }
 
@@ -92,8 +93,13 @@ struct OwnedShape::Data {
                          scalar(cylinder.radius));
     return std::make_unique<btCylinderShape>(half);
   }
+  // Bullet lays its margin around a cone: it stands on that.
   ShapePointer operator()(const ConeShape& cone) {
-    return std::make_unique<btConeShape>(scalar(cone.radius), scalar(cone.height));
+    const double margin = kRoundMargin * std::min(cone.radius, cone.height);
+    auto shape = std::make_unique<btConeShape>(scalar(cone.radius - margin),
+                                               scalar(cone.height - 2.0 * margin));
+    shape->setMargin(scalar(margin));
+    return shape;
   }
   ShapePointer operator()(const HullShape& hull) { return hull_of(hull); }
   ShapePointer operator()(const MeshShape& shape) {

@@ -13,8 +13,8 @@ local set = scene{
 }
 math.randomseed(math.floor(set.seed))
 
-local glass = material{like = "glass", softening = set.softening, damping_ratio = 0.2,
-                       internal_damping = 20}
+local glass = material{like = "glass", softening = set.softening, damping_ratio = 0.5,
+                       internal_damping = 300} -- else its own cracks shake all of it to dust
 local side, height = 0.6, 0.5 -- m
 local pane = shape.shell{name = "pane", width = side, depth = side, centre = {0, height, 0},
                          cells_u = 15, cells_v = 17, wall = 0.004, material = glass,

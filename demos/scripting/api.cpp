@@ -13,18 +13,28 @@
 namespace limber::demos {
 namespace {
 
-const ApiFunction& function_of(lua_State* lua) {
-  return *static_cast<const ApiFunction*>(lua_touserdata(lua, lua_upvalueindex(1)));
+// A function with what every call of it needs.
+struct Callable {
+  const ApiFunction& function;
+  std::string where;  // its full name
+  bool is_method;
+};
+
+const std::vector<Callable>& callables() {
+  static const std::vector<Callable> all = [] {
+    std::vector<Callable> made;
+    for (const ApiFunction& function : api_functions()) {
+      made.push_back({function, function.full_name(), function.is_method()});
+    }
+    return made;
+  }();
+  return all;
 }
 
-// Is the first argument what a method is of?
-bool has_receiver(lua_State* lua, const ApiFunction& function) {
-  return luaL_testudata(lua, 1, function.owner.c_str()) != nullptr;
-}
-
-int checked_call(lua_State* lua, const ApiFunction& function, const std::string& where) {
-  const int table = function.is_method() ? 2 : 1;
-  if (function.is_method() && !has_receiver(lua, function)) {
+int checked_call(lua_State* lua, const Callable& callable) {
+  const auto& [function, where, is_method] = callable;
+  const int table = is_method ? 2 : 1;
+  if (is_method && !luaL_testudata(lua, 1, function.owner.c_str())) {
     raise(lua,
           fmt::format("{}: it is called on a {}; write it with a colon", where, function.owner));
   }
@@ -38,17 +48,16 @@ int checked_call(lua_State* lua, const ApiFunction& function, const std::string&
 
 // What every function of the table is for Lua. Errors of ours become Lua's, with the place.
 int call_function(lua_State* lua) {
-  const ApiFunction& function = function_of(lua);
-  const std::string where = function.full_name();
+  const auto& callable = *static_cast<const Callable*>(lua_touserdata(lua, lua_upvalueindex(1)));
   std::string message;
   try {
-    return checked_call(lua, function, where);
+    return checked_call(lua, callable);
   } catch (const InputError& error) {
     message = error.diagnostic.text();
   } catch (const std::bad_alloc&) {
-    message = where + ": there is not enough memory; make it smaller";
+    message = callable.where + ": there is not enough memory; make it smaller";
   } catch (const std::exception& error) {
-    message = fmt::format("{}: {}", where, error.what());
+    message = fmt::format("{}: {}", callable.where, error.what());
   }
   raise(lua, message);
 }
@@ -82,11 +91,11 @@ int type_name(lua_State* lua) {
 
 // The functions of one owner, into the table on top of the stack.
 void add_functions(lua_State* lua, const std::string& owner) {
-  for (const ApiFunction& function : api_functions()) {
-    if (function.owner != owner) continue;
-    lua_pushlightuserdata(lua, const_cast<ApiFunction*>(&function));
+  for (const Callable& callable : callables()) {
+    if (callable.function.owner != owner) continue;
+    lua_pushlightuserdata(lua, const_cast<Callable*>(&callable));
     lua_pushcclosure(lua, call_function, 1);
-    lua_setfield(lua, -2, function.name.c_str());
+    lua_setfield(lua, -2, callable.function.name.c_str());
   }
 }
 

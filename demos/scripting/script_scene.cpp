@@ -15,7 +15,6 @@ Scene build(const ScriptSource& source, const ParameterValues& values,
   Script script(source, values, settings);
   Scene scene = script.scene();
   if (script.has_callbacks()) {
-    // What the first run printed while it set the scene up is not printed again.
     scene.behaviour = [source, values, settings] {
       return std::make_unique<Script>(source, values, settings);
     };

@@ -61,14 +61,15 @@ TEST(ShippedScenes, AllRun) {
   }
 }
 
+// Two are enough to see that one falls by the other.
 TEST(ShippedScenes, DominoesTopple) {
   RunOptions options;
-  options.seconds = 2.9;
-  std::ostringstream printed;
-  ScriptSettings settings;
-  settings.printed = &printed;
-  run(build_scene("dominoes", {{"biscuits", 6.0}}, settings), options);
-  EXPECT_EQ(printed.str(), "6 of 6 fell\n");
+  options.seconds = 0.6;
+  const RunResult result = run(build_scene("dominoes", {{"biscuits", 2.0}}), options);
+  ASSERT_EQ(result.summaries.size(), 2u);
+  for (const BodySummary& biscuit : result.summaries) {
+    EXPECT_LT(biscuit.centre_of_mass.y(), 0.036) << biscuit.name;  // upright: 0.045
+  }
 }
 
 }  // namespace
