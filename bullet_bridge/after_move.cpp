@@ -213,6 +213,7 @@ void CoSimulation::Impl::freeze_calm_pieces(double dt) {
   if (stepped_late_) contacts_.take_over(std::exchange(late_contacts_, {}));
   const std::vector<std::uint8_t> yielding = contacts_.yielding_points(lattice_);
   const auto yields = [&](std::int32_t p) { return yielding[p] != 0; };
+  const std::vector<double> pressed = contacts_.contact_loads(lattice_);
   for (Piece* piece : flexible_pieces()) {
     const Calmness seen = look_at(*piece);
     piece->peak_load = seen.peak_load;
@@ -231,22 +232,27 @@ void CoSimulation::Impl::freeze_calm_pieces(double dt) {
     }
     if (!piece->touched) ++counters_.needless;
     freeze_piece(*piece, "calm", numbers_of(*piece, seen));
-    note_carried_load(*piece);
+    note_carried_load(*piece, pressed);
     // Bullet gives gravity once per stepSimulation; this body has missed it, should more ticks
     // follow.
     piece->proxy->body().applyGravity();
   }
 }
 
-// What it bears as it becomes rigid: only a change of that strains it from now on.
-void CoSimulation::Impl::note_carried_load(Piece& piece) const {
+// What it bears as it becomes rigid: only a change of that strains it from now on. Counted as
+// Bullet's impulses will be, by magnitude: what lies between a floor and a weight bears both.
+// `pressed`: N, shape (P), of its contacts with bodies. The force as a whole is known of the others
+// too.
+void CoSimulation::Impl::note_carried_load(Piece& piece, std::span<const double> pressed) const {
   const RigidProxy& proxy = *piece.proxy;
+  double magnitudes = 0.0;
+  for (std::int32_t p : piece.points) magnitudes += pressed[p];
   piece.carried_air =
       environment_.air ? proxy.air_force(*environment_.air, time_) : Vec3(Vec3::Zero());
   piece.air_load = piece.carried_air;
-  piece.carried_load = contact_load(lattice_, piece.points, from_bullet(world_.getGravity()),
-                                    proxy.to_world(piece.carried_air)) +
-                       piece.joint_load;
+  const double whole = contact_load(lattice_, piece.points, from_bullet(world_.getGravity()),
+                                    proxy.to_world(piece.carried_air));
+  piece.carried_load = std::max(whole, magnitudes) + piece.joint_load;
   piece.sustained_load = piece.carried_load;
 }
 

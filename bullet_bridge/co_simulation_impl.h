@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -108,7 +109,7 @@ class CoSimulation::Impl : public TickHooks {
   void show_lattices();
   void name_pieces_of_breaks();
   void freeze_calm_pieces(double dt);
-  void note_carried_load(Piece& piece) const;
+  void note_carried_load(Piece& piece, std::span<const double> pressed) const;
   void step_debris(double dt);
   void count_time(double dt);
 

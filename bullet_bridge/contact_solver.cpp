@@ -79,6 +79,7 @@ void ContactSolver::take_over(ContactSolver&& other) {
 }
 
 void ContactSolver::add_forces(Lattice& lattice, double dt) {
+  dt_ = dt;
   if (substep_++ % kListInterval == 0) list_pairs(lattice, dt);
   for (const PointLoad& load : loads_) lattice.force[load.point] += load.force;
   const auto serial = std::partition_point(clusters_.begin(), clusters_.end(),
@@ -180,6 +181,12 @@ void ContactSolver::correct_poses(double tick) {
 bool ContactSolver::touched(const btCollisionObject& object) const {
   const int i = shadows_.find(object);
   return i >= 0 && shadows_[i].touched;
+}
+
+std::vector<double> ContactSolver::contact_loads(const Lattice& lattice) const {
+  std::vector<double> loads(lattice.motion.size(), 0.0);
+  for (const Obstacle& obstacle : obstacles_) obstacle.add_loads(dt_, loads);
+  return loads;
 }
 
 std::vector<std::uint8_t> ContactSolver::yielding_points(const Lattice& lattice) const {

@@ -67,6 +67,10 @@ class ContactSolver : public SubstepCoupling {
   // Did the lattice push the body in this tick, directly or through others?
   bool touched(const btCollisionObject& body) const;
 
+  // N, shape (P): how hard bodies press points just now, whatever the direction; what presses a
+  // face is with one of its corners.
+  std::vector<double> contact_loads(const Lattice& lattice) const;
+
   // Points, shape (P), that have sunk into bodies and are on their way out still: what has them is
   // not at rest, however steadily it moves.
   std::vector<std::uint8_t> yielding_points(const Lattice& lattice) const;
@@ -91,6 +95,7 @@ class ContactSolver : public SubstepCoupling {
   ShapeCache shapes_;
   Gravity gravity_ = Gravity::kToCome;
   int substep_ = 0;
+  double dt_ = 0.0;  // s, of the last substep
 };
 
 }  // namespace LIMBER_BULLET_PRECISION

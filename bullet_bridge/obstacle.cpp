@@ -374,6 +374,15 @@ void Obstacle::press(Lattice& lattice, const LatticeSurface& surface, ShadowBody
   if (body.movable()) sharers_ = std::max(1, pushed_);
 }
 
+void Obstacle::add_loads(double dt, std::vector<double>& loads) const {
+  for (const PointPair& pair : points_) {
+    if (pair.books.open) loads[pair.of] += pair.books.impulse / dt;
+  }
+  for (const FacePair& pair : faces_) {
+    if (pair.books.open) loads[pair.corners[0]] += pair.books.impulse / dt;
+  }
+}
+
 void Obstacle::mark_yielding(std::vector<std::uint8_t>& points) const {
   for (const PointPair& pair : points_) {
     if (pair.yields) points[pair.of] = 1;

@@ -92,6 +92,10 @@ class Obstacle {
   void press(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body,
              const ObstacleShare& share, double dt);
 
+  // Adds the normal forces of the last substep of dt, N, to `loads`, shape (P): a face's to its
+  // first corner.
+  void add_loads(double dt, std::vector<double>& loads) const;
+
   // Marks the points, shape (P), at which what has sunk in is on its way out still.
   void mark_yielding(std::vector<std::uint8_t>& points) const;
 
