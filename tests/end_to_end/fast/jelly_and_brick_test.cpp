@@ -60,6 +60,8 @@ TEST(JellyAndBrick, JellyStaysFlexibleWhileItWobbles) {
   }
 }
 
+// Or in the one before: the prediction allows for what Bullet's query rounds off the corners of
+// boxes and proxies, up to 3 cm each.
 TEST(JellyAndBrick, BrickTurnsFlexibleInTheTickOfItsTouch) {
   const Scene scene = build_scene("jelly_and_brick");
   const std::vector<SwitchEvent> brick = switches_of(whole_run(), "brick");
@@ -67,7 +69,7 @@ TEST(JellyAndBrick, BrickTurnsFlexibleInTheTickOfItsTouch) {
       std::find_if(brick.begin(), brick.end(), [](const SwitchEvent& e) { return e.to_flexible; });
   ASSERT_NE(touched, brick.end());
   const double tick_begins = static_cast<double>(last_tick_in_flight(scene)) * scene.tick;
-  EXPECT_GE(touched->time_s, tick_begins - 1e-9) << touched->cause;
+  EXPECT_GE(touched->time_s, tick_begins - scene.tick - 1e-9) << touched->cause;
   EXPECT_LE(touched->time_s, tick_begins + scene.tick + 1e-9) << touched->cause;
   EXPECT_EQ(whole_run().missed, 0u);
 }
