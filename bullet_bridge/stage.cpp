@@ -86,6 +86,19 @@ struct Stage::World {
 
   btRigidBody& body(std::size_t index) const { return *bodies[index]->body; }
 
+  // What rests on the body, or hangs from it, would sleep on in the air without it.
+  void wake_neighbours_of(const btRigidBody& body) {
+    for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+      const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+      if (manifold.getBody0() == &body) manifold.getBody1()->activate();
+      if (manifold.getBody1() == &body) manifold.getBody0()->activate();
+    }
+    for (const auto& joint : joints) {
+      if (&joint->getRigidBodyA() == &body) joint->getRigidBodyB().activate();
+      if (&joint->getRigidBodyB() == &body) joint->getRigidBodyA().activate();
+    }
+  }
+
   void remove_joints_of(const btRigidBody& body) {
     std::erase_if(joints, [&](const std::unique_ptr<btTypedConstraint>& joint) {
       if (&joint->getRigidBodyA() != &body && &joint->getRigidBodyB() != &body) return false;
@@ -153,6 +166,7 @@ std::size_t Stage::add_body(const StageBody& body) {
 }
 
 void Stage::remove_body(std::size_t body) {
+  world_->wake_neighbours_of(world_->body(body));
   world_->remove_joints_of(world_->body(body));
   world_->world.removeRigidBody(&world_->body(body));
   world_->bodies[body].reset();
@@ -172,12 +186,12 @@ void Stage::set_motion(std::size_t index, const StageMotion& motion) {
   btTransform pose;
   pose.setOrigin(to_bullet(motion.centre));
   pose.setRotation(to_bullet(Eigen::Quaterniond(motion.rotation)));
-  body.setWorldTransform(pose);
-  body.setInterpolationWorldTransform(pose);
+  world_->wake_neighbours_of(body);
   if (!body.isStaticObject()) {
     body.setLinearVelocity(to_bullet(motion.velocity));
     body.setAngularVelocity(to_bullet(motion.spin));
   }
+  body.setCenterOfMassTransform(pose);  // and with it the inertia in the world's axes
   world_->world.updateSingleAabb(&body);
   body.activate(true);
 }

@@ -1,5 +1,6 @@
 #include "core/modeller/read_mesh.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
@@ -80,6 +81,33 @@ void keep_importers_of(const std::filesystem::path& file, Assimp::Importer& impo
     if (!has_word(importer.GetImporterInfo(i)->mFileExtensions, kind))
       importer.UnregisterLoader(importer.GetImporter(i));
 }
+
+// A mesh file may name further files, which come from its own folder or below, also by links.
+class OwnFolder : public Assimp::DefaultIOSystem {
+ public:
+  explicit OwnFolder(const std::filesystem::path& file)
+      : mesh_(canonical(file)), folder_(canonical(file.parent_path() / ".")) {}
+
+  bool Exists(const char* file) const override {
+    return allowed(file) && DefaultIOSystem::Exists(file);
+  }
+
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return allowed(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  bool allowed(const char* name) const {
+    std::error_code error;
+    const std::filesystem::path file = std::filesystem::canonical(name, error);
+    if (error) return false;
+    return file == mesh_ ||
+           std::mismatch(folder_.begin(), folder_.end(), file.begin(), file.end()).first ==
+               folder_.end();
+  }
+
+  std::filesystem::path mesh_, folder_;
+};
 
 void ask_for_bare_triangles(Assimp::Importer& importer) {
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
@@ -193,13 +221,15 @@ bool means_empty(const std::string& error) {
 std::string without_mesh(const std::filesystem::path& file, const std::string& error) {
   if (means_empty(error)) return {kIsEmpty};
   const std::string kind = lower_extension(file);
-  const std::string others = kind == ".gltf" ? ", or a file that it names is missing" : "";
+  const std::string others =
+      kind == ".gltf" ? ", or a file that it names is not in its folder" : "";
   return kIsText + ("is cut short or is not a " + kind + " file" + others);
 }
 
 std::string imported(const std::filesystem::path& file, double scale) {
   try {
     Assimp::Importer importer;
+    importer.SetIOHandler(new OwnFolder(file));  // the importer deletes it
     keep_importers_of(file, importer);
     ask_for_bare_triangles(importer);
     const aiScene* scene = importer.ReadFile(file.string(), kSteps);

@@ -401,14 +401,14 @@ RunResult run(const Scene& scene, const RunOptions& options,
   std::optional<Diagnostic> failure;
   const double seconds = options.seconds > 0.0 ? options.seconds : scene.seconds;
   const double tick = options.tick > 0.0 ? options.tick : scene.tick;
-  const auto ticks = static_cast<int>(std::ceil(seconds / tick - 1e-9));
-  for (int n = 0; n < ticks && !failure; ++n) {
+  const auto ticks = static_cast<std::int64_t>(std::ceil(seconds / tick - 1e-9));
+  for (std::int64_t n = 0; n < ticks && !failure; ++n) {
     try {
       simulation.advance_tick();
     } catch (const BehaviourError& error) {
       failure = error.diagnostic;
     }
-    if (progress) progress(static_cast<double>(n + 1) / ticks);
+    if (progress) progress(static_cast<double>(n + 1) / static_cast<double>(ticks));
   }
   RunResult result = simulation.result();
   result.failure = std::move(failure);

@@ -31,6 +31,26 @@ const std::vector<Callable>& callables() {
   return all;
 }
 
+// The script's own functions may change the table that a call was given; what was checked is the
+// copy, out of their reach.
+void copy_table(lua_State* lua, int index) {
+  lua_newtable(lua);
+  for (lua_pushnil(lua); lua_next(lua, index) != 0;) {
+    state_of(lua).spend(1);
+    lua_pushvalue(lua, -2);
+    lua_insert(lua, -2);
+    lua_rawset(lua, -4);
+  }
+  lua_replace(lua, index);
+}
+
+bool is_plain_table(lua_State* lua, int index) {
+  if (!lua_istable(lua, index)) return false;
+  if (!lua_getmetatable(lua, index)) return true;
+  lua_pop(lua, 1);
+  return false;
+}
+
 int checked_call(lua_State* lua, const Callable& callable) {
   const auto& [function, where, is_method] = callable;
   const int table = is_method ? 2 : 1;
@@ -43,6 +63,7 @@ int checked_call(lua_State* lua, const Callable& callable) {
           fmt::format("{}: it takes one table of named fields; write {}{{...}}", where, where));
   }
   if (function.running) script_of(lua).require_running(where);
+  if (is_plain_table(lua, table)) copy_table(lua, table);
   return function.call(Arguments(lua, table, function.fields, where));
 }
 

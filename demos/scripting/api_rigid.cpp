@@ -80,12 +80,18 @@ int make_round(const Arguments& given) {
   return give_body(given, Shape{given.number("radius"), given.number("height")}, true);
 }
 
+// What a shape is made of is kept outside of Lua's memory.
+void charge_items(const Arguments& given, std::size_t count) {
+  script_of(given.lua()).take_points(static_cast<double>(count));
+}
+
 int make_hull(const Arguments& given) {
   bullet::HullShape hull{given.vectors("points")};
   if (hull.points.size() > 1000 || bullet::triangles_of(hull).triangles.empty()) {
     throw InputError({given.where(), "the points have no hull, or are more than 1000",
                       "give at least four that do not lie in a plane"});
   }
+  charge_items(given, hull.points.size());
   return give_body(given, std::move(hull), true);
 }
 
@@ -96,6 +102,7 @@ int make_mesh(const Arguments& given) {
     throw InputError({given.where(), "'triangles' has a number of items that three does not divide",
                       "give three numbers of points for each triangle"});
   }
+  charge_items(given, mesh.positions.size() + corners.size());
   const auto most = static_cast<double>(mesh.positions.size());
   std::vector<std::int32_t> index;
   for (double corner : corners) {
@@ -122,6 +129,7 @@ int make_terrain(const Arguments& given) {
     throw InputError({given.where(), "'heights' does not fill two rows or more of the columns",
                       "give columns x rows numbers, row by row"});
   }
+  charge_items(given, terrain.heights.size());
   return give_body(given, std::move(terrain), false);
 }
 
@@ -147,7 +155,8 @@ bullet::StageMotion motion_of(const Arguments& given) {
 int name_of(const Arguments& given) {
   Script& script = script_of(given.lua());
   const Scene& scene = script.simulation() ? script.simulation()->scene() : script.draft();
-  lua_pushstring(given.lua(), scene.bodies[self<BodyHandle>(given).index].name.c_str());
+  const std::string& name = scene.bodies[self<BodyHandle>(given).index].name;
+  lua_pushlstring(given.lua(), name.data(), name.size());
   return 1;
 }
 

@@ -1,9 +1,12 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "demos/scripting/api.h"
 #include "demos/scripting/lua_state.h"
+#include "demos/scripting/safe_strings.h"
 #include "demos/scripting/script.h"
 
 // The scene, and what happens in it.
@@ -12,6 +15,7 @@ namespace limber::demos {
 namespace {
 
 constexpr double kForever = 1e5;  // s
+constexpr double kMostTicks = 1e7;
 
 Parameter parameter_of(const Arguments& given) {
   Parameter p{given.text("name"),    given.number("value"), given.text("unit"),
@@ -43,11 +47,18 @@ void push_values(lua_State* lua, const std::vector<Parameter>& parameters) {
   }
   lua_newtable(lua);
   lua_pushcfunction(lua, [](lua_State* l) -> int {
-    raise(l, std::string("the scene has no parameter '") + luaL_tolstring(l, 2, nullptr) +
+    push_text(l, 2);
+    raise(l, std::string("the scene has no parameter '") + lua_tostring(l, -1) +
                  "'; declare it in scene{parameters = {...}}");
   });
   lua_setfield(lua, -2, "__index");
   lua_setmetatable(lua, -2);
+}
+
+void require_few_ticks(const Arguments& given, double ticks) {
+  if (ticks <= kMostTicks) return;
+  throw InputError({given.where(), fmt::format("'seconds' are {:.3g} of 'tick'", ticks),
+                    fmt::format("give fewer seconds or a longer tick: {:g} at most", kMostTicks)});
 }
 
 int set_scene(const Arguments& given) {
@@ -58,6 +69,7 @@ int set_scene(const Arguments& given) {
   Scene& scene = script.draft();
   scene.seconds = given.number("seconds");
   scene.tick = given.number("tick");
+  require_few_ticks(given, scene.seconds / scene.tick);
   scene.gravity = given.vector("gravity");
   scene.floor = given.flag("floor");
   scene.floor_friction = given.number("floor_friction");

@@ -16,6 +16,7 @@ namespace limber::demos {
 namespace {
 
 constexpr lua_Unsigned kMostItems = 1'000'000;  // of one list
+constexpr std::size_t kMostTextBytes = 1000;    // names are kept outside of Lua's memory
 constexpr double kMostWhole = 2147483647.0;
 
 // One value against its field. Raises what is wrong.
@@ -32,7 +33,7 @@ class Check {
       case Kind::kFlag:
         return require(lua_isboolean(lua_, index_));
       case Kind::kText:
-        return require(lua_type(lua_, index_) == LUA_TSTRING);
+        return check_text();
       case Kind::kChoice:
         return check_choice();
       case Kind::kVector:
@@ -144,6 +145,14 @@ class Check {
     }
   }
 
+  void check_text() const {
+    require(lua_type(lua_, index_) == LUA_TSTRING);
+    const std::size_t bytes = lua_rawlen(lua_, index_);
+    if (bytes <= kMostTextBytes) return;
+    raise(lua_, fmt::format("{}: '{}' is a text of {} bytes; give at most {}", where_, field_.name,
+                            bytes, kMostTextBytes));
+  }
+
   void check_choice() const {
     require(lua_type(lua_, index_) == LUA_TSTRING);
     const std::string_view word = lua_tostring(lua_, index_);
@@ -187,22 +196,38 @@ class Check {
 }
 
 const Field& field_named(lua_State* lua, const std::vector<Field>& fields, const std::string& where,
-                         const char* name) {
+                         std::string_view name) {
   for (const Field& f : fields) {
     if (f.name == name) return f;
   }
-  complain_of_name(lua, fields, where, name);
+  complain_of_name(lua, fields, where, std::string(name));
 }
 
-void check_given(lua_State* lua, int table, const std::vector<Field>& fields,
-                 const std::string& where) {
+// The names in a table, ascending: Lua's own order differs from run to run.
+std::vector<std::string_view> names_given(lua_State* lua, int table,
+                                          const std::vector<Field>& fields,
+                                          const std::string& where) {
+  std::vector<std::string_view> names;
   for (lua_pushnil(lua); lua_next(lua, table) != 0; lua_pop(lua, 1)) {
     if (lua_type(lua, -2) != LUA_TSTRING) {
       raise(lua, fmt::format("{}: it takes named fields; write {}{{{} = ...}}", where, where,
                              fields.empty() ? "name" : fields.front().name));
     }
-    const Field& f = field_named(lua, fields, where, lua_tostring(lua, -2));
+    std::size_t length = 0;
+    const char* const name = lua_tolstring(lua, -2, &length);
+    names.emplace_back(name, length);
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+void check_given(lua_State* lua, int table, const std::vector<Field>& fields,
+                 const std::string& where) {
+  for (const std::string_view name : names_given(lua, table, fields, where)) {
+    const Field& f = field_named(lua, fields, where, name);
+    lua_getfield(lua, table, f.name.c_str());
     Check(lua, -1, f, where).run();
+    lua_pop(lua, 1);
   }
 }
 
@@ -324,7 +349,9 @@ Track<T> track(lua_State* lua, const Read& read) {
   std::vector<typename Track<T>::Key> keys;
   const auto length = static_cast<lua_Integer>(lua_rawlen(lua, list));
   for (lua_Integer i = 1; i <= length; ++i) {
-    lua_rawgeti(lua, list, i);
+    if (lua_rawgeti(lua, list, i) != LUA_TTABLE) {
+      raise(lua, "a list changed while it was read; leave it alone in callbacks");
+    }
     lua_rawgeti(lua, -1, 1);
     lua_rawgeti(lua, -2, 2);
     keys.push_back({lua_tonumber(lua, -2), read(lua_gettop(lua))});

@@ -116,7 +116,7 @@ std::string wanted(const Field& f) {
     case Kind::kThing:
       return "an object that was spawned, or a body";
     case Kind::kBody:
-      return "a body, as body.box{} makes one";
+      return "a body, as rigid.box{} makes one";
     case Kind::kRecord:
       return "a table with named fields";
     case Kind::kRecords:

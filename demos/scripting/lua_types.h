@@ -73,6 +73,7 @@ void open_vectors(lua_State* lua);
 
 // A vec, or a list of three finite numbers.
 bool is_vector(lua_State* lua, int index);
+// Raises a Lua error where it is none: a list that was one may have changed since.
 Vec3 to_vector(lua_State* lua, int index);
 
 }  // namespace limber::demos

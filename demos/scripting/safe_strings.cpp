@@ -83,9 +83,20 @@ bool shows_address(lua_State* lua, int index) {
          type == LUA_TLIGHTUSERDATA;
 }
 
+// Is there a %p, with whatever flags and width?
+bool asks_for_address(std::string_view format) {
+  for (auto i = format.find('%'); i != std::string_view::npos; i = format.find('%', i + 1)) {
+    i = format.find_first_not_of("-+ #0123456789.", i + 1);
+    if (i == std::string_view::npos) return false;
+    if (format[i] == 'p') return true;
+  }
+  return false;
+}
+
 int format(lua_State* lua) {
-  const std::string_view wanted = luaL_checkstring(lua, 1);
-  if (wanted.find("%p") != std::string_view::npos) {
+  std::size_t length = 0;
+  const char* const wanted = luaL_checklstring(lua, 1, &length);
+  if (asks_for_address({wanted, length})) {
     raise(lua, "addresses (%p) differ from run to run; leave them out");
   }
   for (int i = 2; i <= lua_gettop(lua); ++i) {
@@ -107,7 +118,7 @@ int to_text(lua_State* lua) {
 double pattern_cost(std::size_t subject_length, std::string_view pattern) {
   const PatternItems items = items_of(pattern);
   return std::pow(static_cast<double>(subject_length) + 1.0, items.repetitions + 1) *
-         std::pow(2.0, items.options);
+         std::pow(2.0, items.options) * std::max(1.0, static_cast<double>(pattern.size()));
 }
 
 void make_strings_safe(lua_State* lua) {

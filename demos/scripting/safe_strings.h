@@ -8,11 +8,12 @@ namespace limber::demos {
 
 // Steps that Lua's pattern matcher may take on a subject of this length: it tries every way to
 // share the subject among the repetitions from every start, (n + 1)^(repetitions + 1); an optional
-// item doubles the ways. (Lua 5.4, lstrlib.c, max_expand(), min_expand() and do_match().)
+// item doubles the ways; each goes along the pattern. (Lua 5.4, lstrlib.c, max_expand(),
+// min_expand() and do_match().)
 double pattern_cost(std::size_t subject_length, std::string_view pattern);
 
 // The most that one search may cost, in these steps.
-inline constexpr double kMostPatternCost = 1e7;
+inline constexpr double kMostPatternCost = 1e8;
 
 // Replaces what in the library `string` may take any time, or shows addresses, by what is charged
 // for or refuses; removes `dump`.

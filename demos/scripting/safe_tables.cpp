@@ -22,8 +22,14 @@ void charge_table(lua_State* lua, double rounds_per_item = 1.0) {
   state_of(lua).spend(static_cast<std::uint64_t>(rounds_per_item * length));
 }
 
-int over_all_items(lua_State* lua) {
-  charge_table(lua);
+// At the end of a list nothing else moves.
+int insert(lua_State* lua) {
+  charge_table(lua, lua_gettop(lua) == 2 ? 0.0 : 1.0);
+  return call_original(lua);
+}
+
+int remove(lua_State* lua) {
+  charge_table(lua, lua_gettop(lua) == 1 ? 0.0 : 1.0);
   return call_original(lua);
 }
 
@@ -98,8 +104,11 @@ void push_key(lua_State* lua, const Key& key) {
   }
 }
 
-// Upvalues: the list of keys, the place in it. Keys that went meanwhile are left out.
+// Upvalues: the list of keys, the place in it. Keys that went meanwhile are left out. Scripts may
+// call it themselves, with anything.
 int next_pair(lua_State* lua) {
+  luaL_checktype(lua, 1, LUA_TTABLE);
+  lua_settop(lua, 1);
   lua_Integer place = lua_tointeger(lua, lua_upvalueindex(2));
   for (;;) {
     ++place;
@@ -136,7 +145,8 @@ void make_tables_safe(lua_State* lua) {
   lua_getglobal(lua, "table");
   wrap(lua, "concat", concat);
   wrap(lua, "sort", sort);
-  for (const char* name : {"insert", "remove"}) wrap(lua, name, over_all_items);
+  wrap(lua, "insert", insert);
+  wrap(lua, "remove", remove);
   wrap(lua, "unpack", unpack);
   lua_pushnil(lua);
   lua_setfield(lua, -2, "move");

@@ -36,6 +36,14 @@ Diagnostic diagnostic_of(const LuaFailure& failure, const std::string& script) {
   return {where, what, remedy};
 }
 
+void require_function(lua_State* lua, const std::string& name) {
+  if (lua_getglobal(lua, name.c_str()) != LUA_TFUNCTION) {
+    raise(lua, fmt::format("'{}' is a {}, and nothing could call it; write function {}(...)", name,
+                           luaL_typename(lua, -1), name));
+  }
+  lua_pop(lua, 1);
+}
+
 }  // namespace
 
 Script& script_of(lua_State* lua) { return *static_cast<Script*>(owner_of(lua)); }
@@ -104,7 +112,10 @@ void Script::refuse_unknown_callbacks(lua_State* lua) {
   const auto& callbacks = api_callbacks();
   for (const std::string& name : global_names(lua)) {
     if (!name.starts_with("on_")) continue;
-    if (std::ranges::find(callbacks, name, &ApiCallback::name) != callbacks.end()) continue;
+    if (std::ranges::find(callbacks, name, &ApiCallback::name) != callbacks.end()) {
+      require_function(lua, name);
+      continue;
+    }
     raise(lua, fmt::format("nothing calls '{}'; did you mean '{}'?", name,
                            nearest_name(callbacks, name)));
   }
@@ -133,17 +144,20 @@ void Script::declare(const std::string& summary, std::vector<Parameter> paramete
 int Script::print(lua_State* lua) {
   Script& script = script_of(lua);
   std::string line;
+  bool fits = true;
   for (int i = 1; i <= lua_gettop(lua); ++i) {
     push_text(lua, i);
     std::size_t length = 0;
     const char* const text = lua_tolstring(lua, -1, &length);
-    if (i > 1) line += '\t';
-    line.append(text, length);
+    state_of(lua).spend(length + 1);
+    fits = fits && line.size() + length + (i > 1 ? 1 : 0) < script.print_left_;
+    if (fits) line.append(i > 1 ? "\t" : "").append(text, length);
     lua_pop(lua, 1);
   }
-  state_of(lua).spend(line.size());
-  if (line.size() >= script.print_left_ || !script.settings_.printed) return 0;
+  if (!fits || line.size() >= script.print_left_) return 0;
   script.print_left_ -= line.size() + 1;
+  const bool silent = script.settings_.silent_set_up && !script.simulation_;
+  if (silent || !script.settings_.printed) return 0;
   *script.settings_.printed << line << '\n';
   return 0;
 }
@@ -152,6 +166,7 @@ int Script::print(lua_State* lua) {
 int Script::require(lua_State* lua) {
   Script& script = script_of(lua);
   const std::string name = luaL_checkstring(lua, 1);
+  lua_settop(lua, 1);
   lua_getfield(lua, LUA_REGISTRYINDEX, "limber modules");
   if (lua_getfield(lua, -1, name.c_str()) != LUA_TNIL) return 1;
   std::string message;
@@ -187,9 +202,10 @@ Simulation& Script::require_running(const std::string& where) {
 
 void Script::take_points(double count) {
   if (!(count <= points_left_)) {
-    raise(state_.raw(), fmt::format("the models of a script may have {} points in all, and this "
-                                    "would be {:.0f} too many; take larger cells",
-                                    settings_.limits.points, count - points_left_));
+    raise(state_.raw(),
+          fmt::format("the models and meshes of a script may have {} points in all, and this "
+                      "would be {:.0f} too many; take larger cells",
+                      settings_.limits.points, count - points_left_));
   }
   points_left_ -= count;
 }
@@ -223,13 +239,18 @@ void Script::add_timer(double time_s, std::optional<double> period) {
 }
 
 void Script::add_input(InputEvent input) {
-  if (inputs_.size() >= kMostInputs) {
+  if (inputs_.size() - next_input_ >= kMostInputs) {
     raise(state_.raw(), fmt::format("there are {} inputs already; play fewer", kMostInputs));
   }
+  if (2 * next_input_ > inputs_.size()) {  // seldom: what is to come moves
+    inputs_.erase(inputs_.begin(), inputs_.begin() + static_cast<std::ptrdiff_t>(next_input_));
+    next_input_ = 0;
+  }
   const auto from = inputs_.begin() + static_cast<std::ptrdiff_t>(next_input_);
-  inputs_.insert(
-      std::ranges::upper_bound(from, inputs_.end(), input.time_s, {}, &InputEvent::time_s),
-      std::move(input));
+  const auto place =
+      std::ranges::upper_bound(from, inputs_.end(), input.time_s, {}, &InputEvent::time_s);
+  state_.spend(static_cast<std::uint64_t>(inputs_.end() - place));
+  inputs_.insert(place, std::move(input));
 }
 
 Air& Script::air() {

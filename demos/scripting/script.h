@@ -26,6 +26,7 @@ struct ScriptSettings {
   ScriptLimits limits = {};
   std::vector<InputEvent> inputs = {};
   std::ostream* printed = nullptr;  // where print() goes; null: nowhere
+  bool silent_set_up = false;       // it was printed before: the script runs once more
 };
 
 // What a script says about itself by scene{}.

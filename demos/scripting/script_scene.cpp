@@ -15,8 +15,10 @@ Scene build(const ScriptSource& source, const ParameterValues& values,
   Script script(source, values, settings);
   Scene scene = script.scene();
   if (script.has_callbacks()) {
-    scene.behaviour = [source, values, settings] {
-      return std::make_unique<Script>(source, values, settings);
+    ScriptSettings again = settings;
+    again.silent_set_up = true;
+    scene.behaviour = [source, values, again] {
+      return std::make_unique<Script>(source, values, again);
     };
   }
   return scene;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
-#include <iterator>
 
 #include "core/model/errors.h"
 #include "shipped_scenes.h"
@@ -22,7 +21,13 @@ std::string text_of(const fs::path& file, std::size_t most_bytes) {
         {file.string(), "it is larger than a script may be", "split it into modules for require"});
   }
   std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::string text(most_bytes, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!in.is_open() || in.bad()) {
+    throw InputError({file.string(), "it cannot be read", "check the name and rights"});
+  }
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
 }
 
 bool is_within(const fs::path& folder, const fs::path& file) {
@@ -69,12 +74,11 @@ fs::path file_beside(const ScriptSource& source, const std::string& name) {
   std::error_code trouble;
   const fs::path folder = fs::canonical(source.folder, trouble);
   const fs::path file = fs::canonical(source.folder / name, trouble);
-  if (trouble || !fs::is_regular_file(file, trouble)) {
+  const bool within = !fs::path(name).is_absolute() && is_within(folder, file);
+  // One message for both: scripts must not find out which files there are elsewhere.
+  if (trouble || !within || !fs::is_regular_file(file, trouble)) {
     throw InputError({name, "there is no such file in the scene's folder",
                       "put it beside the script, or check the name"});
-  }
-  if (fs::path(name).is_absolute() || !is_within(folder, file)) {
-    throw InputError({name, "it is outside of the scene's folder", "put it beside the script"});
   }
   return file;
 }

@@ -146,6 +146,9 @@ bool is_vector(lua_State* lua, int index) {
 
 Vec3 to_vector(lua_State* lua, int index) {
   if (const Vec3* v = as<Vec3>(lua, index)) return *v;
+  if (!is_vector(lua, index)) {
+    raise(lua, "a vector changed while it was read; leave it alone in callbacks");
+  }
   const int table = lua_absindex(lua, index);
   Vec3 v;
   for (int i = 0; i < 3; ++i) {

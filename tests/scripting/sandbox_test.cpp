@@ -64,14 +64,14 @@ TEST(Sandbox, RefusesSearchesThatMayTakeForEver) {
   }
 }
 
-// Two repetitions in n characters: n starts, n ways to share, n to fail.
+// Two repetitions in n characters: n starts, n ways to share, n to fail, each along the pattern.
 TEST(Sandbox, KnowsWhatASearchMayCost) {
-  EXPECT_EQ(pattern_cost(99, "abc"), 100.0);
-  EXPECT_EQ(pattern_cost(99, "a*b"), 100.0 * 100.0);
-  EXPECT_EQ(pattern_cost(99, "a*.-b"), 100.0 * 100.0 * 100.0);
-  EXPECT_EQ(pattern_cost(99, "a?b?c"), 400.0);
-  EXPECT_EQ(pattern_cost(99, "%*%-"), 100.0);  // signs, not repetitions
-  EXPECT_EQ(pattern_cost(99, "%b()"), 100.0 * 100.0);
+  EXPECT_EQ(pattern_cost(99, "abc"), 3.0 * 100.0);
+  EXPECT_EQ(pattern_cost(99, "a*b"), 3.0 * 100.0 * 100.0);
+  EXPECT_EQ(pattern_cost(99, "a*.-b"), 5.0 * 100.0 * 100.0 * 100.0);
+  EXPECT_EQ(pattern_cost(99, "a?b?c"), 5.0 * 400.0);
+  EXPECT_EQ(pattern_cost(99, "%*%-"), 4.0 * 100.0);  // signs, not repetitions
+  EXPECT_EQ(pattern_cost(99, "%b()"), 4.0 * 100.0 * 100.0);
 }
 
 TEST(Sandbox, EndsRecursion) {
@@ -122,6 +122,29 @@ TEST(Sandbox, TypesOfTheSceneStayAsTheyAre) {
   EXPECT_THAT(refusal_of_text("vec(1, 2, 3).x = 4").what, HasSubstr("does not change"));
 }
 
+// The iterator of pairs() is a function like others.
+TEST(Sandbox, PairsOfAnythingElseAreRefused) {
+  for (const char* script : {"pairs({1})()", "pairs({1})(5)", "pairs({1})(1234.5, 'x')"}) {
+    EXPECT_THAT(refusal_of_text(script).what, HasSubstr("table expected")) << script;
+  }
+  EXPECT_NO_THROW(
+      scene_of_text("local f, t = pairs({a = 1}) local k, v = f(t)\n"
+                    "assert(k == 'a' and v == 1 and f(t) == nil)"));
+}
+
+// A thousand ends of a list of 1e5 items would be 1e8 steps if each paid for all of it.
+TEST(Sandbox, TheEndOfAListIsChangedAtNoCost) {
+  ScriptSettings settings;
+  settings.limits.load_steps = 20'000'000;
+  const std::string list = "local t = {} for i = 1, 1e5 do t[i] = i end\n";
+  EXPECT_NO_THROW(scene_of_text(
+      list + "for i = 1, 1000 do table.insert(t, i) end for i = 1, 1000 do table.remove(t) end\n"
+             "assert(#t == 1e5)",
+      settings));
+  EXPECT_THAT(refusal_of_text(list + "for i = 1, 1000 do table.insert(t, 1, i) end", settings).what,
+              HasSubstr("steps"));
+}
+
 // The order of pairs() and addresses would differ from run to run.
 TEST(Sandbox, PairsGoInOrder) {
   const char* script = R"(
@@ -141,6 +164,65 @@ TEST(Sandbox, ShowsNoAddresses) {
       scene_of_text("assert(tostring({}) == 'table' and tostring(print) == 'function')\n"
                     "assert(string.format('%s %s', {}, 1) == 'table 1')"));
   EXPECT_THAT(refusal_of_text("string.format('%p', {})").what, HasSubstr("%p"));
+  for (const char* hidden : {"%20p", "%-5p", "%5.3p", "%d %p", "%%%p", "\\0%p"}) {
+    const std::string script = "string.format('" + std::string(hidden) + "', {}, {})";
+    EXPECT_THAT(refusal_of_text(script).what, HasSubstr("(%p)")) << script;
+  }
+  EXPECT_NO_THROW(scene_of_text("assert(string.format('%%p %5.1f%%', 2) == '%p   2.0%')"));
+  EXPECT_EQ(refusal_of_text("local _ = scene{}[{}]").what, "the scene has no parameter 'table'");
+}
+
+// Lua's own order of a table's names differs from run to run.
+TEST(Sandbox, TheFirstWrongNameIsTheSameInEveryRun) {
+  for (int run = 0; run < 10; ++run) {
+    EXPECT_THAT(refusal_of_text("rigid.sphere{wrong = 1, radius = {}, bad = 1, worse = 1}").what,
+                HasSubstr("'bad'"));
+    EXPECT_THAT(refusal_of_text("rigid.sphere{radius = {}, mass = 'x', friction = -1}").what,
+                HasSubstr("'friction'"));
+  }
+}
+
+// What was checked must not be something else when it is used.
+TEST(Sandbox, CallbacksCannotChangeWhatWasChecked) {
+  const std::string turn = "low = 0, high = 1, cells_across = 4, material = 'rubber'}\n";
+  EXPECT_NO_THROW(
+      scene_of_text("local a = {" + turn +
+                    "a.colour = {1, 0, 0}\n"
+                    "a.radius = function() a.colour = 1e-300 a.low = {} return 0.1 end\n"
+                    "shape.turned(a)"));
+  EXPECT_THAT(
+      refusal_of_text("local c = {1, 0, 0}\n"
+                      "local a = {colour = c, " +
+                      turn + "a.radius = function() c[1] = 'x' return 0.1 end\nshape.turned(a)")
+          .text(),
+      HasSubstr("a vector changed while it was read; leave it alone in callbacks"));
+}
+
+TEST(Sandbox, NamesAreShort) {
+  const std::string ball = "rigid.sphere{radius = 1, name = ('x'):rep(";
+  EXPECT_NO_THROW(scene_of_text(ball + "1000)}"));
+  EXPECT_THAT(refusal_of_text(ball + "1001)}").text(),
+              HasSubstr("'name' is a text of 1001 bytes; give at most 1000"));
+}
+
+TEST(Sandbox, WhatIsPrintedCosts) {
+  ScriptSettings settings = small();
+  EXPECT_THAT(refusal_of_text("local s = ('x'):rep(1e5) local t = setmetatable({}, {__tostring =\n"
+                              "function() return s end}) for i = 1, 20 do print(t, t) end",
+                              settings)
+                  .what,
+              HasSubstr("steps"));
+  std::ostringstream printed;
+  settings.printed = &printed;
+  settings.limits.printed_bytes = 10;
+  scene_of_text("print('abc', 'def') print(('x'):rep(100), 'y') print('z')", settings);
+  EXPECT_EQ(printed.str(), "abc\tdef\nz\n");
+}
+
+TEST(Sandbox, RunsForALimitedNumberOfTicks) {
+  EXPECT_NO_THROW(scene_of_text("scene{seconds = 1e5, tick = 0.011}"));
+  EXPECT_THAT(refusal_of_text("scene{seconds = 1e5, tick = 1e-5}").text(),
+              HasSubstr("scene: 'seconds' are 1e+10 of 'tick'; give fewer seconds"));
 }
 
 TEST(Sandbox, RandomNumbersAreTheSameInEveryRun) {
@@ -172,8 +254,14 @@ TEST(Sandbox, AModelIsNoWayAroundTheLimitOfMemory) {
         "local box = shape.box{size = {1, 1, 1}, cells = {9, 9, 9}, material = 'rubber'}\n"
         "for i = 1, 1000 do box:copy() end",
         "local box = shape.box{size = {1, 1, 1}, cells = {9, 9, 9}, material = 'rubber'}\n"
-        "for i = 1, 1000 do spawn{model = box} end"}) {
-    EXPECT_THAT(refusal_of_text(script, settings).what, HasSubstr("points in all"));
+        "for i = 1, 1000 do spawn{model = box} end",
+        "local h = {} for i = 1, 1000 do h[i] = 0 end\n"
+        "for i = 1, 11 do rigid.terrain{columns = 10, spacing = 1, heights = h} end",
+        "local p, t = {}, {} for i = 1, 500 do p[i] = {i, i % 2, 0} t[3 * i] = 3 t[3 * i - 1] = 2\n"
+        "t[3 * i - 2] = 1 end for i = 1, 6 do rigid.mesh{points = p, triangles = t} end",
+        "local p = {} for i = 1, 900 do p[i] = vec(math.cos(i), math.sin(i), i % 2) end\n"
+        "for i = 1, 12 do rigid.hull{points = p} end"}) {
+    EXPECT_THAT(refusal_of_text(script, settings).what, HasSubstr("points in all")) << script;
   }
 }
 

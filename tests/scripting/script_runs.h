@@ -37,6 +37,10 @@ struct ScriptRun {
   std::string printed;
 };
 
+inline std::string failure_of(const ScriptRun& run) {
+  return run.result.failure ? run.result.failure->text() : "";
+}
+
 inline ScriptRun run_of_text(const std::string& text, double seconds,
                              ScriptSettings settings = {}) {
   std::ostringstream printed;

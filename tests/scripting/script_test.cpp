@@ -45,6 +45,11 @@ TEST(ScriptMessages, NameWhatWasMistyped) {
   EXPECT_THAT(refusal_of_text("shap.box{}").remedy, HasSubstr("did you mean 'shape'"));
   EXPECT_THAT(refusal_of_text("material{like = 'stonware'}").text(), HasSubstr("stoneware"));
   EXPECT_THAT(refusal_of_text("function on_brake() end").text(), HasSubstr("on_break"));
+  EXPECT_THAT(
+      refusal_of_text("on_tick = 5").text(),
+      HasSubstr("'on_tick' is a number, and nothing could call it; write function on_tick("));
+  EXPECT_THAT(refusal_of_text("joint.ball{body = 1, at = {0, 0, 0}}").text(),
+              HasSubstr("as rigid.box{} makes one"));
   EXPECT_THAT(refusal_of_text("local m = shape.sphere{radius = 1, cells_across = 4, "
                               "material = 'rubber'} m:plaec{}")
                   .text(),
@@ -124,6 +129,7 @@ TEST(ScriptRun, TellsOfContactsAndSwitches) {
                       "function on_flexible(e) print('flexible', e.object:name(), e.cause) end\n"
                       "function on_rigid(e) print('rigid', e.object:name(), e.cause) end\n",
                   1.5);
+  EXPECT_THAT(done.printed, HasSubstr("contact\ttrue\n"));
   EXPECT_THAT(done.printed, HasSubstr("flexible\tcube\ttouch"));
   EXPECT_THAT(done.printed, HasSubstr("rigid\tcube\tcalm"));
 }
@@ -171,7 +177,63 @@ TEST(ScriptRun, PushesAndThrows) {
           "after{seconds = 0.2, call = function()\n"
           "  assert((cube:velocity() - vec(1, 3, 0)):length() < 1e-3) print('done') end}",
       0.3);
-  EXPECT_EQ(done.printed, "done\n") << done.result.failure->text();
+  EXPECT_EQ(done.printed, "done\n") << failure_of(done);
+}
+
+// Asleep one on the other; what holds the upper one goes away.
+TEST(ScriptRun, WhatStoodOnARemovedOrMovedBodyFalls) {
+  for (const char* change : {"lower:remove()", "lower:move{position = {5, 0.1, 0}}"}) {
+    SCOPED_TRACE(change);
+    const ScriptRun done = run_of_text(
+        "local lower = rigid.box{size = {0.2, 0.2, 0.2}, mass = 1, position = {0, 0.1, 0}}\n"
+        "local upper = rigid.box{size = {0.2, 0.2, 0.2}, mass = 1, position = {0, 0.3, 0}}\n"
+        "local function still() local y = upper:position().y return y > 0.29 and y < 0.31 end\n"
+        "after{seconds = 4, call = function() assert(still() and upper:velocity():length() == "
+        "0)\n" +
+            std::string(change) +
+            " end}\n"
+            "after{seconds = 5, call = function() print(upper:position().y < 0.11) end}",
+        5.1);
+    EXPECT_EQ(done.printed, "true\n") << failure_of(done);
+  }
+}
+
+TEST(ScriptRun, WhatHungFromARemovedBodyFalls) {
+  const ScriptRun done = run_of_text(
+      "scene{floor = false}\n"
+      "local hook = rigid.sphere{radius = 0.05, position = {0, 2, 0}}\n"
+      "local bob = rigid.sphere{radius = 0.1, mass = 1, position = {0, 1.5, 0}}\n"
+      "joint.ball{body = bob, to = hook, at = {0, 2, 0}}\n"
+      "after{seconds = 4, call = function() assert(bob:velocity():length() == 0) hook:remove() "
+      "end}\n"
+      "after{seconds = 4.5, call = function() print(bob:position().y < 1) end}",
+      4.6);
+  EXPECT_EQ(done.printed, "true\n") << failure_of(done);
+}
+
+TEST(ScriptRun, PrintsOnceWhatItPrintsWhileItIsSetUp) {
+  const ScriptRun done = run_of_text("print('set up') function on_start() print('go') end", 0.05);
+  EXPECT_EQ(done.printed, "set up\ngo\n");
+}
+
+TEST(ScriptRun, NamesAreKeptWhole) {
+  EXPECT_NO_THROW(
+      scene_of_text("local ball = rigid.sphere{name = 'a\\0b', radius = 1}\n"
+                    "assert(ball:name() == 'a\\0b')"));
+}
+
+// Played inputs make room for others.
+TEST(ScriptRun, InputsThatWereCountNoMore) {
+  const ScriptRun done = run_of_text(
+      "local n = 0\nfunction on_input() n = n + 1 end\n"
+      "function on_start() for i = 1, 1e5 do play{name = 'a', at = 0} end end\n"
+      "after{seconds = 0.05, call = function() play{name = 'a', at = 1} print(n) end}",
+      0.1, [] {
+        ScriptSettings settings;
+        settings.limits.tick_steps = 1'000'000'000;
+        return settings;
+      }());
+  EXPECT_EQ(done.printed, "100000\n") << failure_of(done);
 }
 
 TEST(ScriptRun, SpawnsAndRemovesAndAsks) {
@@ -192,7 +254,7 @@ TEST(ScriptRun, SpawnsAndRemovesAndAsks) {
           "  assert(on_cube.thing == cube and cube:strain() < 1 and not (cube == twin))\n"
           "  print('done') end}",
       0.3);
-  EXPECT_EQ(done.printed, "done\n") << done.result.failure->text();
+  EXPECT_EQ(done.printed, "done\n") << failure_of(done);
   EXPECT_EQ(done.result.bodies, 2u);
   EXPECT_EQ(done.result.summaries[1].name, "twin");
 }
@@ -207,7 +269,7 @@ TEST(ScriptRun, JoinsBodies) {
       "  low = math.min(low, p.y) end\n"
       "after{seconds = 1, call = function() print(low < 1.76) end}",
       1.1);
-  EXPECT_EQ(done.printed, "true\n") << done.result.failure->text();
+  EXPECT_EQ(done.printed, "true\n") << failure_of(done);
 }
 
 TEST(ScriptRun, MovesTheWind) {
@@ -221,7 +283,7 @@ TEST(ScriptRun, MovesTheWind) {
       "  gust:set{strength = 5} end}\n"
       "after{seconds = 0.3, call = function() print(sheet:velocity().z > 0.1) end}",
       0.35);
-  EXPECT_EQ(done.printed, "true\n") << done.result.failure->text();
+  EXPECT_EQ(done.printed, "true\n") << failure_of(done);
 }
 
 TEST(ScriptRun, IsTheSameBitForBit) {
@@ -267,14 +329,15 @@ TEST(ScriptFolder, ModulesComeFromTheScenesFolderAlone) {
       "assert(a.size == 3 and a == b)");
   EXPECT_EQ(good.code, 0) << good.err;
   EXPECT_EQ(good.err, "once\n");
+  EXPECT_EQ(said("require('parts.leaf') require('parts.leaf', 1)").err, "once\n");
   for (const char* module : {"..outside", "../outside", "/etc/passwd", "linked", "none", ""}) {
     const auto bad = said("require('" + std::string(module) + "')");
     EXPECT_EQ(bad.code, 2) << module;
-    EXPECT_THAT(bad.err, ContainsRegex("no such file|outside of|no name of a module")) << module;
+    EXPECT_THAT(bad.err, ContainsRegex("no such file|no name of a module")) << module;
   }
   for (const char* file : {"../outside.lua", "/etc/passwd", "linked.lua", "none.obj"}) {
     const auto bad = said("shape.file{file = '" + std::string(file) + "'}");
-    EXPECT_THAT(bad.err, ContainsRegex("no such file|outside of")) << file;
+    EXPECT_THAT(bad.err, HasSubstr("there is no such file in the scene's folder")) << file;
   }
 }
 
@@ -294,6 +357,15 @@ TEST(ScriptProgram, ExitsByTheContract) {
   EXPECT_EQ(limber({"compare", file, "--seconds", "0.1"}).code, 1);
 }
 
+// A file that opens and fails when it is read; rights do not stop every user.
+TEST(ScriptProgram, RefusesAScriptThatCannotBeRead) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("/proc/self/mem", folder / "a.lua");
+  const auto said = limber({"run", (folder / "a.lua").string(), "--seconds", "0.02"});
+  EXPECT_EQ(said.code, 2);
+  EXPECT_THAT(said.err, HasSubstr("a.lua: it cannot be read; check the name and rights"));
+}
+
 TEST(ScriptProgram, SetsParametersAndPlaysInputs) {
   const TemporaryFolder folder;
   const std::string file = (folder / "a.lua").string(), inputs = (folder / "in.txt").string();
@@ -303,8 +375,7 @@ TEST(ScriptProgram, SetsParametersAndPlaysInputs) {
   write(inputs, "# a player\n\n0.05 aim -2.5\n");
   const auto good = limber({"run", file, "--seconds", "0.1", "--set", "n=4", "--inputs", inputs});
   EXPECT_EQ(good.code, 0) << good.err;
-  EXPECT_THAT(good.err, HasSubstr("4.0\n"));
-  EXPECT_THAT(good.err, HasSubstr("aim\t-2.5\ttrue\n"));
+  EXPECT_EQ(good.err, "4.0\naim\t-2.5\ttrue\n");
   EXPECT_EQ(limber({"run", file, "--set", "n=6"}).code, 2);
   for (const char* line : {"soon aim 1", "-1 aim 1", "1 aim", "1 aim 2 3", "nan aim 1"}) {
     write(inputs, line);

@@ -99,6 +99,27 @@ TEST_F(ReadMesh, AppliesTheTransformsOfNodes) {
   EXPECT_LT((m.centre - 0.5 * (Vec3(0.5, 1, 1.5) + Vec3(9.5, 21, 31.5))).norm(), 1e-5);
 }
 
+// A stranger's mesh must not read what lies elsewhere, neither by its name nor through a link.
+TEST_F(ReadMesh, ReadsFurtherFilesFromItsOwnFolderAlone) {
+  fs::create_directories(file("own/below"));
+  test::write_gltf_twice(test::box_mesh({0, 0, 0}, {1, 2, 3}), {3, 0, 0}, file("own/a.gltf"));
+  const auto points_to = [&](const std::string& place) {
+    std::ifstream in(file("own/a.gltf"));
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    text.replace(text.find("a.bin"), 5, place);
+    write_text(file("own/b.gltf"), text);
+  };
+  fs::copy(file("own/a.bin"), file("own/below/in.bin"));
+  points_to("below/in.bin");
+  EXPECT_EQ(read_mesh(file("own/b.gltf")).triangles.size(), 24u);
+  fs::copy(file("own/a.bin"), file("outside.bin"));
+  fs::create_symlink(file("outside.bin"), file("own/linked.bin"));
+  for (const char* place : {"../outside.bin", "linked.bin"}) {
+    points_to(place);
+    EXPECT_THAT(refusal("own/b.gltf"), HasSubstr("a file that it names is not in its folder"));
+  }
+}
+
 TEST_F(ReadMesh, CutsPolygonsAndLeavesLinesOut) {
   write_text(file("p.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nl 1 3\n");
   EXPECT_EQ(read_mesh(file("p.obj")).triangles.size(), 2u);
