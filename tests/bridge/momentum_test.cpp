@@ -164,7 +164,7 @@ class Scene {
 
 struct Outcome {
   double exchanged = 0.0;                   // kg m/s, got by the partner
-  double momentum_error = 0.0;              // shares of what was exchanged
+  double momentum_error = 0.0;              // shares of what was exchanged, or of its spin
   double angular_error = 0.0;               // ... times kSize, or of the partner's own spin
   double energy_gain = 0.0;                 // largest, share of the start's
   Vec3 partner_velocity, lattice_velocity;  // m/s
