@@ -198,6 +198,20 @@ TEST(ScriptRun, WhatStoodOnARemovedOrMovedBodyFalls) {
   }
 }
 
+// A rod of 0.4 x 0.1 x 0.1 m and 3 kg, turned upright: m (0.4^2 + 0.1^2) / 12 = 0.0425 kg m^2 about
+// x (it was 0.005), so that 0.1 N m s give 0.1 / 0.0425 rad/s.
+TEST(ScriptRun, AMovedBodyTurnsByItsNewInertia) {
+  const ScriptRun done = run_of_text(
+      "scene{gravity = {0, 0, 0}}\n"
+      "local rod = rigid.box{size = {0.4, 0.1, 0.1}, mass = 3, position = {0, 2, 0}}\n"
+      "function on_start()\n"
+      "  rod:move{rotation = {axis = {0, 0, 1}, angle = math.pi / 2}}\n"
+      "  rod:push{impulse = {0, 0, 1}, at = {0, 2.1, 0}}\n"
+      "  print((rod:spin() - vec(0.1 / 0.0425, 0, 0)):length() < 1e-4) end",
+      0.02);
+  EXPECT_EQ(done.printed, "true\n") << failure_of(done);
+}
+
 TEST(ScriptRun, WhatHungFromARemovedBodyFalls) {
   const ScriptRun done = run_of_text(
       "scene{floor = false}\n"
