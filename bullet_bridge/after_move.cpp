@@ -42,6 +42,7 @@ void CoSimulation::Impl::after_solve(double dt) {
 // Sleeping proxies keep what they bore when they fell asleep.
 void CoSimulation::Impl::read_contacts() {
   for (Piece* piece : index_.awake()) {
+    if (!piece->body().isActive()) continue;
     piece->joint_load = 0.0;
     if (!piece->flexible()) piece->proxy->impulse = 0.0;
   }
@@ -52,17 +53,17 @@ void CoSimulation::Impl::read_contacts() {
     if (!manifold.getBody0()->isActive() && !manifold.getBody1()->isActive()) continue;
     Piece* a = index_.rigid(*manifold.getBody0());
     Piece* b = index_.rigid(*manifold.getBody1());
-    if (!a && !b) continue;
     const double impulse = impulse_of(manifold);
-    if (a) a->proxy->impulse += impulse;
-    if (b) b->proxy->impulse += impulse;
+    if (a && a->body().isActive()) a->proxy->impulse += impulse;
+    if (b && b->body().isActive()) b->proxy->impulse += impulse;
   }
 }
 
 void CoSimulation::Impl::after_move(double dt) {
   if (failure_) return;
-  if (stepped_lattice_) contacts_.correct_poses(dt);
+  // Flags of bodies that both have touched: the first has the game's, so it comes last.
   if (stepped_late_) late_contacts_.correct_poses(dt);
+  if (stepped_lattice_) contacts_.correct_poses(dt);
   fly_free_proxies(dt);
   time_ += dt;
   if (stepped_lattice_) split_broken_pieces();

@@ -78,8 +78,7 @@ void CoSimulation::Impl::consider_sweep(const NearBody& mover, double dt) {
 }
 
 void CoSimulation::Impl::consider_pair(Piece& piece, const btCollisionObject& other, double dt) {
-  if (!piece.body().hasContactResponse() || !other.hasContactResponse()) return;
-  if (!stands_for_lattice(other)) consider_touch(piece, other, dt);
+  if (piece.body().hasContactResponse() && is_met(other)) consider_touch(piece, other, dt);
 }
 
 void CoSimulation::Impl::consider_touch(Piece& piece, const btCollisionObject& other, double dt) {
@@ -214,8 +213,11 @@ Vec3 CoSimulation::Impl::blow_on(const Piece& piece, double dt) {
 void CoSimulation::Impl::thaw_piece(Piece& piece, const std::string& cause, Numbers numbers) {
   if (thawing_late_) {
     numbers.emplace_back("deflected", 1.0);
-    btRigidBody& body = piece.proxy->body();  // the lattice falls by itself
-    body.setLinearVelocity(body.getLinearVelocity() - body.getGravity() * btScalar(tick_));
+    contacts_.let_go(piece.proxy->body());
+    btRigidBody& body = piece.proxy->body();
+    if (!body.getTotalForce().isZero()) {  // Bullet gave it gravity; the lattice falls by itself
+      body.setLinearVelocity(body.getLinearVelocity() - body.getGravity() * btScalar(tick_));
+    }
   }
   const HandOver books = thaw(lattice_, piece.points, *piece.proxy);
   switches_.push_back({time_, piece.object, piece.id, cause, std::move(numbers), books});
@@ -240,14 +242,16 @@ void CoSimulation::Impl::clear_unwanted_manifolds() {
       return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
     });
   };
+  const auto is_lattice = [&](const btCollisionObject& object) {
+    const Piece* piece = index_.any(object);
+    return piece && piece->flexible();
+  };
   btDispatcher& dispatcher = *world_.getDispatcher();
   for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
     btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
     const btCollisionObject* a = manifold.getBody0();
     const btCollisionObject* b = manifold.getBody1();
-    if (!a->hasContactResponse() || !b->hasContactResponse() || may_pass(a, b)) {
-      manifold.clearManifold();
-    }
+    if (is_lattice(*a) || is_lattice(*b) || may_pass(a, b)) manifold.clearManifold();
   }
   passing_.clear();
 }

@@ -65,17 +65,29 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTra
   for (const SupportContact& c : contacts) supported_[c.a] = supported_[c.b] = true;
   if (gravity_ == Gravity::kToCome) return;
   for (int i = 0; i < shadows_.size(); ++i) {
-    if (!supported_[i]) shadows_[i].velocity -= gravity_of(shadows_[i]) * tick;  // it falls anew
+    const btRigidBody* body = shadows_[i].body;
+    if (supported_[i] || !body || !body->isActive()) continue;
+    shadows_[i].velocity -= gravity_of(shadows_[i]) * tick;  // it falls anew
   }
 }
 
 void ContactSolver::take_over(ContactSolver&& other) {
   for (Obstacle& theirs : other.obstacles_) {
     const auto same = [&](const Obstacle& mine) { return &mine.object() == &theirs.object(); };
-    if (std::none_of(obstacles_.begin(), obstacles_.end(), same)) {
+    const auto known = std::find_if(obstacles_.begin(), obstacles_.end(), same);
+    if (known == obstacles_.end()) {
       obstacles_.push_back(std::move(theirs));
+    } else {
+      known->add_pairs(std::move(theirs));
     }
   }
+}
+
+void ContactSolver::let_go(const btCollisionObject& object) {
+  const int i = shadows_.find(object);
+  if (i < 0 || !shadows_[i].touched) return;
+  shadows_[i].body->setFlags(shadows_[i].flags);
+  shadows_[i].touched = false;
 }
 
 void ContactSolver::add_forces(Lattice& lattice, double dt) {

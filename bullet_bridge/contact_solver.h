@@ -50,8 +50,10 @@ class ContactSolver : public SubstepCoupling {
     shadows_ = {};
   }
 
-  // From the next tick on this goes on with the other's contacts too; of bodies that both know,
-  // with its own.
+  // The body is no longer one: its pose and flags are not this solver's business any more.
+  void let_go(const btCollisionObject& object);
+
+  // From the next tick on this goes on with the contacts of the other too, which are of other points.
   void take_over(ContactSolver&& other);
 
   // Forces besides, for this tick. After begin_tick().

@@ -17,6 +17,17 @@ double load_on(const Piece& piece, btTypedConstraint& joint, const btVector3& fo
   return force.length() + 2.0 * couple.length() / piece.size;
 }
 
+// Bullet fills it in when it solves the joint; its vectors are born with whatever memory held.
+void clear(btJointFeedback& feedback) {
+  for (btVector3* v : {&feedback.m_appliedForceBodyA, &feedback.m_appliedTorqueBodyA,
+                       &feedback.m_appliedForceBodyB, &feedback.m_appliedTorqueBodyB}) {
+    v->setZero();
+  }
+}
+
+// Joints of what sleeps are not solved: what their feedback holds is old.
+bool is_solved(const Piece* piece) { return piece && piece->body().isActive(); }
+
 }  // namespace
 
 void JointLoads::begin(btDiscreteDynamicsWorld& world, const PieceIndex& index) {
@@ -29,6 +40,7 @@ void JointLoads::begin(btDiscreteDynamicsWorld& world, const PieceIndex& index) 
     if (a || b) entries_.push_back({&joint, a, b, {}, joint.getJointFeedback() == nullptr});
   }
   for (Entry& entry : entries_) {  // they stay where they are now
+    clear(entry.feedback);
     if (entry.lent) entry.joint->setJointFeedback(&entry.feedback);
   }
 }
@@ -39,11 +51,11 @@ void JointLoads::end() {
     if (!joint.getJointFeedback()) continue;
     const btJointFeedback found = *joint.getJointFeedback();
     if (entry.lent) joint.setJointFeedback(nullptr);
-    if (entry.a) {
+    if (is_solved(entry.a)) {
       entry.a->joint_load +=
           load_on(*entry.a, joint, found.m_appliedForceBodyA, found.m_appliedTorqueBodyA);
     }
-    if (entry.b) {
+    if (is_solved(entry.b)) {
       entry.b->joint_load +=
           load_on(*entry.b, joint, found.m_appliedForceBodyB, found.m_appliedTorqueBodyB);
     }

@@ -22,14 +22,6 @@ namespace {
 constexpr double kReachMargin = 0.01;  // m, beyond the way at the present speed
 constexpr std::size_t kMostSamples = 300;
 
-bool is_met(const btCollisionObject& object) {
-  const int type = object.getInternalType();
-  const bool body = type == btCollisionObject::CO_RIGID_BODY ||
-                    type == btCollisionObject::CO_COLLISION_OBJECT ||
-                    type == btCollisionObject::CO_FEATHERSTONE_LINK;
-  return body && object.hasContactResponse() && !stands_for_lattice(object);
-}
-
 struct Collector : btBroadphaseAabbCallback {
   std::vector<const btCollisionObject*> found;
   bool process(const btBroadphaseProxy* proxy) override {
@@ -125,6 +117,14 @@ std::vector<const btCollisionObject*> bodies_in(btCollisionWorld& world, const V
   return std::move(collector.found);
 }
 
+bool is_met(const btCollisionObject& object) {
+  const int type = object.getInternalType();
+  const bool body = type == btCollisionObject::CO_RIGID_BODY ||
+                    type == btCollisionObject::CO_COLLISION_OBJECT ||
+                    type == btCollisionObject::CO_FEATHERSTONE_LINK;
+  return body && object.hasContactResponse() && !stands_for_lattice(object);
+}
+
 bool may_meet(btCollisionWorld& world, const btCollisionObject& a, const btCollisionObject& b) {
   const auto handle = [](const btCollisionObject& object) {
     return const_cast<btBroadphaseProxy*>(object.getBroadphaseHandle());
@@ -208,6 +208,7 @@ std::optional<double> reaching_speed(const btRigidBody& body, std::span<const Ve
   std::optional<double> fastest;
   for (const ContactPart& part :
        contact_parts(*other.getCollisionShape(), box.min() - around, box.max() + around, cache)) {
+    if (part.for_faces) continue;  // points meet the triangles
     for (const PointMotion& point : seen) {
       const Penetration into = penetration(part, point.position);
       if (into.depth <= -margin) continue;

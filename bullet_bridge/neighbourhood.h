@@ -32,6 +32,10 @@ std::vector<NearBody> sweeping_bodies(const btCollisionWorld& world, double dt);
 std::vector<const btCollisionObject*> bodies_in(btCollisionWorld& world, const Vec3& low,
                                                 const Vec3& high);
 
+// Rigid bodies, plain collision objects and links of multi-bodies that respond to contact, but
+// those that stand for a lattice.
+bool is_met(const btCollisionObject& object);
+
 // Do the game's groups, masks and own filter let the two meet?
 bool may_meet(btCollisionWorld& world, const btCollisionObject& a, const btCollisionObject& b);
 

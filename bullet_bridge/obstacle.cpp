@@ -234,6 +234,18 @@ void Obstacle::remember(Obstacle&& last_tick) {
   }
 }
 
+void Obstacle::add_pairs(Obstacle&& others) {
+  if (shape_ != others.shape_ || at_rest_ != others.at_rest_) return;
+  const auto join = [](auto& mine, auto& theirs) {
+    const auto middle = static_cast<std::ptrdiff_t>(mine.size());
+    mine.insert(mine.end(), theirs.begin(), theirs.end());
+    std::inplace_merge(mine.begin(), mine.begin() + middle, mine.end(),
+                       [](const auto& a, const auto& b) { return a.of < b.of; });
+  };
+  join(points_, others.points_);
+  join(faces_, others.faces_);
+}
+
 // A body that stops is met in the world from now on, one that starts to move in its own frame.
 void Obstacle::change_frame(PointTrack& track) const {
   if (at_rest_) {

@@ -71,6 +71,9 @@ class Obstacle {
   // elsewhere or has another shape.
   void remember(Obstacle&& last_tick);
 
+  // Takes over the pairs of other points and faces with the same body.
+  void add_pairs(Obstacle&& others);
+
   // Lists the pairs that may touch until the next listing, for substeps of dt.
   void list(const Lattice& lattice, const LatticeSurface& surface, const ShadowBody& body,
             const ListingReach& reach, double dt);
@@ -166,8 +169,8 @@ class Obstacle {
   double way_;                      // m, that it is about to move in this tick
   bool at_rest_;                    // immovable and not moving: parts are in world coordinates
   std::vector<ContactPart> parts_;  // otherwise in the body's frame
-  std::vector<PointPair> points_;   // ascending by (of, part)
-  std::vector<FacePair> faces_;     // ascending by (of, part)
+  std::vector<PointPair> points_;   // ascending by `of`; its parts in the order of parts_
+  std::vector<FacePair> faces_;     // likewise
   int sharers_ = 1;                 // contacts that pushed the body in the last substep
   int pushed_ = 0;                  // in this one
 };

@@ -271,5 +271,14 @@ TYPED_TEST(EveryWorld, RunsOnWhenABridgeGoesInMidRun) {
   EXPECT_NE(busy.hash(), then);
 }
 
+// A soft body is no shape for a lattice: that is no reason to stop the lattices.
+TEST(SoftWorldWithABlock, ThrownAtTheClothGoesOn) {
+  SoftWorld soft;
+  CoSimulation simulation(soft.world());
+  simulation.add(make_block({}, {0.0, 5.0, 0.0}, {0.0, -40.0, 0.0}));
+  for (int n = 0; n < 60; ++n) soft.step();
+  EXPECT_FALSE(simulation.failure()) << simulation.failure()->text();
+}
+
 }  // namespace
 }  // namespace limber::bullet::test
