@@ -144,7 +144,7 @@ std::unique_ptr<btConvexHullShape> hull_around(const CoSimulation& simulation, s
 }
 
 struct Tally {
-  int touches = 0, missed = 0, thaws = 0, needless = 0;
+  int touches = 0, missed = 0, thaws = 0, needless = 0, failed = 0;
   std::map<Partner, int> missed_by;
 };
 
@@ -175,9 +175,10 @@ class Throw {
       const Judge::Way from = way_of(*piece_), partner_from = way_of(*partner_);
       const bool flexible_before = simulation_.pieces().at(0).flexible;
       world_.step(kTick);
-      // At twice its wave speed a lattice that cannot break may be torn numerically. It was one.
-      touched = simulation_.failure().has_value();
-      if (touched) break;
+      if (simulation_.failure()) {  // neither a touch nor a thaw
+        ++tally.failed;
+        return;
+      }
       if (flexible_before || simulation_.pieces().at(0).flexible) {
         const Vec3 now = simulation_.pieces().at(0).motion.velocity;
         touched = (now - from_bullet(from.velocity)).norm() > 1e-3;
@@ -324,7 +325,7 @@ int wanted() {
 TEST(FirstTouches, AreForeseenAndFewThawsAreNeedless) {
   Random random(2026);
   Tally tally;
-  for (int run = 0; tally.touches < wanted(); ++run) {
+  for (int run = 0; tally.touches < wanted() && run < 20 * wanted(); ++run) {
     const auto kind = static_cast<Partner>(run % static_cast<int>(Partner::kCount));
     SCOPED_TRACE(run);
     Throw(random, kind).run(tally);
@@ -332,7 +333,10 @@ TEST(FirstTouches, AreForeseenAndFewThawsAreNeedless) {
   for (const auto& [kind, missed] : tally.missed_by) {
     if (missed > 0) ADD_FAILURE() << missed << " with partner " << static_cast<int>(kind);
   }
+  EXPECT_GE(tally.touches, wanted());
   EXPECT_EQ(tally.missed, 0);
+  // At twice its wave speed a lattice that cannot break may be torn numerically.
+  EXPECT_LE(50 * tally.failed, tally.touches);
   EXPECT_LE(5 * tally.needless, tally.thaws);
   RecordProperty("touches", tally.touches);
   RecordProperty("thaws", tally.thaws);
