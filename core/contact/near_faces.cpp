@@ -37,7 +37,7 @@ constexpr int kFrameInterval = 8;
 // more points that are out of reach (the teapot's listings take 1.4 times as long at 1).
 constexpr double kCellShare = 0.5;
 
-bool ascending(const NearFaces::Pair& l, const NearFaces::Pair& r) {
+bool by_point_and_face(const NearFaces::Pair& l, const NearFaces::Pair& r) {
   return l.point != r.point ? l.point < r.point : l.face < r.face;
 }
 
@@ -132,7 +132,7 @@ void NearFaces::refresh(const Lattice& lattice, const OuterSurface& surface, boo
   }
   if (anew) {
     std::set_difference(between_.pairs.begin(), between_.pairs.end(), before.begin(), before.end(),
-                        std::back_inserter(new_), ascending);
+                        std::back_inserter(new_), by_point_and_face);
   }
 }
 
@@ -272,7 +272,7 @@ NearFaces::Pairs NearFaces::list_between(const Lattice& lattice, const OuterSurf
   } else {
     append_near(lattice, surface, surface.points(), surface.faces(), reach, accept, pairs);
   }
-  std::sort(pairs.begin(), pairs.end(), ascending);
+  std::sort(pairs.begin(), pairs.end(), by_point_and_face);
   return pairs;
 }
 
@@ -291,7 +291,7 @@ NearFaces::Pairs NearFaces::list_within(const Lattice& lattice, const OuterSurfa
                are_apart_at_rest(lattice, surface, p, f);
       },
       pairs);
-  std::sort(pairs.begin(), pairs.end(), ascending);
+  std::sort(pairs.begin(), pairs.end(), by_point_and_face);
   return pairs;
 }
 

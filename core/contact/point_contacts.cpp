@@ -17,7 +17,7 @@ constexpr double kAuthoredDistanceShare = 0.9;
 
 // The list's skin as a share of the largest contact radius: a wider one lists more pairs, a
 // narrower one lists more often. 2 was the cheapest on a breaking teapot (1, 2, 3 and 4 tried).
-constexpr double kSkinShare = 2.0;
+constexpr double kSkinRadii = 2.0;
 
 // A point that has no edge from the start: it has no shape to keep.
 bool is_grain(const Lattice& lattice, std::int32_t p) { return lattice.point_edges[p].empty(); }
@@ -87,7 +87,7 @@ constexpr int kDeformationCheckInterval = 16;
 // just broken are a tenth of its length from contact, which takes them tens of substeps.
 constexpr int kWithinInterval = 4;
 
-bool ascending(const PointContacts::Pair& l, const PointContacts::Pair& r) {
+bool by_points(const PointContacts::Pair& l, const PointContacts::Pair& r) {
   return l.a != r.a ? l.a < r.a : l.b < r.b;
 }
 
@@ -117,7 +117,7 @@ void PointContacts::refresh(const Lattice& lattice, const Components& pieces, bo
   merge_fresh();
   if (topology_changed || carried_changed) {
     pieces_ = with_carriers(lattice, pieces);
-    skin_ = kSkinShare * largest_radius(lattice, all_points(lattice));
+    skin_ = kSkinRadii * largest_radius(lattice, all_points(lattice));
   }
   if (skin_ == 0.0) return;
   if (topology_changed || carried_changed || moved_too_far(lattice)) list_between(lattice);
@@ -142,9 +142,9 @@ void PointContacts::edges_broken(const Lattice& lattice, std::span<const std::in
 void PointContacts::merge_fresh() {
   if (fresh_.empty()) return;
   const auto listed = static_cast<std::ptrdiff_t>(within_.size());
-  std::sort(fresh_.begin(), fresh_.end(), ascending);
+  std::sort(fresh_.begin(), fresh_.end(), by_points);
   within_.insert(within_.end(), fresh_.begin(), fresh_.end());
-  std::inplace_merge(within_.begin(), within_.begin() + listed, within_.end(), ascending);
+  std::inplace_merge(within_.begin(), within_.begin() + listed, within_.end(), by_points);
   fresh_.clear();
 }
 
@@ -183,7 +183,7 @@ bool PointContacts::deformed_too_far(const Lattice& lattice, const Components& p
 std::vector<std::int32_t> PointContacts::points_near_other_pieces(const Lattice& lattice) const {
   std::vector<std::int32_t> points = all_points(lattice);
   if (!PieceBoxes::pay(pieces_.count, points.size())) return points;
-  const PieceBoxes boxes(lattice, points, pieces_, skin_ + 2.0 * skin_ / kSkinShare);
+  const PieceBoxes boxes(lattice, points, pieces_, skin_ + 2.0 * skin_ / kSkinRadii);
   std::erase_if(points, [&](std::int32_t p) {
     const Vec3& x = lattice.motion[p].position;
     return !boxes.reaches_into_another(Box3(x, x), pieces_.label[p]);
@@ -199,14 +199,14 @@ PointContacts::Pairs PointContacts::near_pairs(const Lattice& lattice,
   std::vector<Vec3> at;
   for (std::int32_t p : points) at.push_back(lattice.motion[p].position);
   // A pair is needed as soon as both may have come skin / 2 nearer.
-  const PointGrid grid(at, skin_ + 2.0 * skin_ / kSkinShare);
+  const PointGrid grid(at, skin_ + 2.0 * skin_ / kSkinRadii);
   grid.for_each_near_pair([&](std::int32_t i, std::int32_t j) {
     const std::int32_t p = std::min(points[i], points[j]), q = std::max(points[i], points[j]);
     const double reach = lattice.contact_radius[p] + lattice.contact_radius[q] + skin_;
     if ((at[i] - at[j]).squaredNorm() > reach * reach || !accept(p, q)) return;
     pairs.push_back(make_pair(lattice, p, q));
   });
-  std::sort(pairs.begin(), pairs.end(), ascending);
+  std::sort(pairs.begin(), pairs.end(), by_points);
   return pairs;
 }
 

@@ -8,6 +8,7 @@
 
 #include "demos/cli/report_json.h"
 #include "demos/cli/text_table.h"
+#include "demos/cli/vector_json.h"
 
 namespace limber::demos {
 namespace {
@@ -107,8 +108,6 @@ std::string contact_section(const ModelFacts& facts) {
   table.add_row({"radius of lone points, m", significant(facts.object.particle_radius)});
   return section(table);
 }
-
-Json vector_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
 Json range_json(const Range& range) {
   return range.empty() ? Json(nullptr) : Json::array({range.least, range.most});

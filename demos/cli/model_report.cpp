@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "demos/cli/text_table.h"
+#include "demos/cli/vector_json.h"
 
 namespace limber::demos {
 namespace {
@@ -64,8 +65,6 @@ std::uint64_t rounded_count(double number) {
   const double unit = std::pow(10.0, std::floor(std::log10(number)) - 1.0);
   return static_cast<std::uint64_t>(std::llround(number / unit) * unit);
 }
-
-Json vector_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
 Json solid_json(const SolidMoments& solid) {
   return {{"volume_m3", solid.volume}, {"com_m", vector_json(solid.centre)}};

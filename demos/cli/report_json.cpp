@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "demos/cli/vector_json.h"
+
 namespace limber::demos {
 namespace {
 
@@ -13,8 +15,6 @@ template <class Number>
 Json or_null(const std::optional<Number>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
-
-Json vector_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
 // Names come from the scene's author: a wrong byte must not cost the result of a long run.
 std::string text_of(const Json& json) {

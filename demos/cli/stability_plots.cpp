@@ -25,10 +25,6 @@ constexpr const char* kPowersOfTen = "'10^{%L}'";
 // gnuplot leaves out what is no number.
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : "NaN"; }
 
-bool is_of(const Scheme& scheme, const Scheme& other) {
-  return std::strcmp(scheme.name, other.name) == 0;
-}
-
 // The block of data `name` + the scheme's number: a row for each item of it.
 template <class Item, class Row>
 std::string data_blocks(const char* name, const std::vector<Item>& items, Row row) {

@@ -20,10 +20,6 @@ constexpr std::array kOutcomes = {StabilityOutcome::kStable, StabilityOutcome::k
                                   StabilityOutcome::kFailed};
 constexpr std::array kShownDamping = {0.01, 0.1, 1.0, 10.0, 100.0};
 
-bool is_of(const Scheme& scheme, const Scheme& other) {
-  return std::strcmp(scheme.name, other.name) == 0;
-}
-
 void widen(SchemeSummary& summary, const std::vector<LimitSample>& samples) {
   for (const LimitSample& l : samples) {
     const double share = l.measured / l.analytic;
@@ -193,6 +189,10 @@ std::string case_row(const StabilityResult& r) {
 }
 
 }  // namespace
+
+bool is_of(const Scheme& scheme, const Scheme& other) {
+  return std::strcmp(scheme.name, other.name) == 0;
+}
 
 std::vector<SchemeSummary> summaries_of(const StabilityAtlas& atlas) {
   std::vector<SchemeSummary> summaries;

@@ -9,6 +9,8 @@
 // The stability atlas in words and numbers: docs/stability.md says what they mean.
 namespace limber::demos {
 
+bool is_of(const Scheme& scheme, const Scheme& other);  // the same one, by name
+
 struct SchemeSummary {
   Scheme scheme;
   std::array<std::size_t, 5> outcomes = {};  // by StabilityOutcome

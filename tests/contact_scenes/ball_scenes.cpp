@@ -10,7 +10,7 @@
 namespace limber::bullet::test {
 namespace {
 
-constexpr double kSpeeds[] = {10.0, 50.0, 200.0};  // m/s
+constexpr double kBallSpeeds[] = {10.0, 50.0, 200.0};  // m/s
 constexpr double kRadius = 0.1;                    // m
 constexpr double kMass = 1.0;                      // kg
 
@@ -59,9 +59,9 @@ Scene ball_on_cube(double speed) {
 
 std::vector<Scene> ball_scenes() {
   std::vector<Scene> scenes;
-  for (double speed : kSpeeds) scenes.push_back(ball_on_sheet(speed, kUnbreakable));
-  for (double speed : kSpeeds) scenes.push_back(ball_on_sheet(speed, 0.1));
-  for (double speed : kSpeeds) scenes.push_back(ball_on_cube(speed));
+  for (double speed : kBallSpeeds) scenes.push_back(ball_on_sheet(speed, kUnbreakable));
+  for (double speed : kBallSpeeds) scenes.push_back(ball_on_sheet(speed, 0.1));
+  for (double speed : kBallSpeeds) scenes.push_back(ball_on_cube(speed));
   return scenes;
 }
 

@@ -8,15 +8,15 @@
 namespace limber::bullet::test {
 namespace {
 
-constexpr double kSpacing = 0.1;  // m, of block and sheet
-constexpr double kDrop = 0.2;     // m
+constexpr double kCoarseSpacing = 0.1;  // m, of block and sheet
+constexpr double kCoarseDrop = 0.2;     // m
 constexpr double kTop = 0.5;      // m
 
 RigidSpec rod() {
   const Eigen::Quaterniond lying(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()));
   return {.shape = capsule(0.01, 0.6),
           .mass = 0.5,
-          .position = {0.01, kTop + kDrop, 0.0},
+          .position = {0.01, kTop + kCoarseDrop, 0.0},
           .rotation = lying};
 }
 
@@ -24,7 +24,7 @@ Scene rod_on_block() {
   Scene scene{.name = "rod of 2 cm on a block with 10 cm cells"};
   scene.rigid = {ground(), rod()};
   scene.flexible = {make_block(toy_block(kTop, 5, 1e5), {0.0, 0.5 * kTop, 0.0})};
-  scene.limits = {.penetration = 0.5 * kSpacing, .rest_speed = kAtRest};
+  scene.limits = {.penetration = 0.5 * kCoarseSpacing, .rest_speed = kAtRest};
   scene.demands = {stays_above_ground(1)};
   return scene;
 }
@@ -34,7 +34,7 @@ Scene on_coarse_sheet(const std::string& name, const RigidSpec& body) {
   Scene scene{.name = name};
   scene.rigid = {body};
   scene.flexible = {make_sheet({.side = 1.1, .cells = 11}, {0.0, kTop, 0.0})};
-  scene.limits.penetration = 0.5 * kSpacing;
+  scene.limits.penetration = 0.5 * kCoarseSpacing;
   scene.demands = {does_not_pass_sheet(0, 0)};
   return scene;
 }
@@ -47,7 +47,7 @@ Scene corner_on_sheet() {
   return on_coarse_sheet("box corner on a sheet with 10 cm cells",
                          {.shape = box(Vec3::Constant(kSide)),
                           .mass = 1.0,
-                          .position = {0.01, kTop + half_diagonal + kDrop, 0.005},
+                          .position = {0.01, kTop + half_diagonal + kCoarseDrop, 0.005},
                           .rotation = on_its_corner});
 }
 

@@ -11,7 +11,7 @@
 namespace limber::bullet::test {
 namespace {
 
-constexpr double kSpeeds[] = {5.0, 20.0, 50.0};  // m/s
+constexpr double kCollisionSpeeds[] = {5.0, 20.0, 50.0};  // m/s
 constexpr double kSide = 0.3;                    // m, of the coarse block
 constexpr double kCoarse = kSide / 3;            // m, its spacing
 
@@ -48,8 +48,8 @@ PhysicalModel flying_needle() {
 
 std::vector<Scene> collision_scenes() {
   std::vector<Scene> scenes;
-  for (double v : kSpeeds) scenes.push_back(collision("fine on coarse block", fine_block(), v));
-  for (double v : kSpeeds) scenes.push_back(collision("needle on a block", flying_needle(), v));
+  for (double v : kCollisionSpeeds) scenes.push_back(collision("fine on coarse block", fine_block(), v));
+  for (double v : kCollisionSpeeds) scenes.push_back(collision("needle on a block", flying_needle(), v));
   return scenes;
 }
 

@@ -9,14 +9,14 @@ namespace limber::bullet::test {
 namespace {
 
 constexpr double kSide = 0.3;  // m, of the block
-constexpr double kDrop = 0.2;  // m
+constexpr double kLandingDrop = 0.2;  // m
 
 // The block a little aslant above what reaches up to `top`.
 Scene landing(const std::string& name, std::vector<RigidSpec> rigid, double top) {
   const Block block = toy_block(kSide, 3, 1e5);
   PhysicalModel model = make_block(block, Vec3::Zero());
   const Mat3 aslant = Eigen::AngleAxisd(0.15, Vec3(1.0, 0.0, 1.0).normalized()).toRotationMatrix();
-  place(model, aslant, {0.03, top + kDrop + 0.6 * kSide, 0.02});
+  place(model, aslant, {0.03, top + kLandingDrop + 0.6 * kSide, 0.02});
   Scene scene{.name = name};
   scene.rigid = std::move(rigid);
   scene.flexible = {model};

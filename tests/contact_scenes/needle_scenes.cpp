@@ -6,12 +6,12 @@
 namespace limber::bullet::test {
 namespace {
 
-constexpr double kDrop = 0.3;            // m
+constexpr double kNeedleDrop = 0.3;            // m
 constexpr double kTilt = 0.02;           // rad: it falls over in the same way everywhere
 constexpr double kNeedleSpacing = 0.02;  // m
 constexpr double kBlockSide = 0.5;       // m
 // Away from the block's points, which are 10 cm apart.
-const Vec3 kAim(0.02, kBlockSide + kDrop, 0.01);
+const Vec3 kAim(0.02, kBlockSide + kNeedleDrop, 0.01);
 
 Scene needle_scene(const std::string& name) {
   Scene scene{.name = name};
@@ -23,7 +23,7 @@ Scene needle_scene(const std::string& name) {
 
 Scene needle_on_floor() {
   Scene scene = needle_scene("flexible needle on the floor");
-  scene.flexible = {make_needle({0.0, kDrop, 0.0}, kTilt)};
+  scene.flexible = {make_needle({0.0, kNeedleDrop, 0.0}, kTilt)};
   scene.limits.penetration = 0.5 * kNeedleSpacing;
   scene.demands = {lattice_stays_above_ground(0, kNeedleSpacing)};
   return scene;

@@ -13,7 +13,7 @@
 namespace limber::bullet::test {
 namespace {
 
-constexpr double kSpacing = 0.02;  // m, between samples
+constexpr double kProbeSpacing = 0.02;  // m, between samples
 
 using Box = Eigen::AlignedBox3d;
 using Triangle = std::array<Vec3, 3>;
@@ -33,7 +33,7 @@ void add_edges(Body& body, const PhysicalModel& model) {
     const Vec3 b = model.geometry.points[model.geometry.edges[e].b];
     body.samples.push_back(a);
     body.samples.push_back(b);
-    const int n = model.geometry.faces.empty() ? int(std::ceil((b - a).norm() / kSpacing)) : 1;
+    const int n = model.geometry.faces.empty() ? int(std::ceil((b - a).norm() / kProbeSpacing)) : 1;
     for (int i = 1; i < n; ++i) body.samples.push_back(a + (b - a) * (double(i) / n));
   }
 }
@@ -42,7 +42,7 @@ void add_samples(Body& body, const Triangle& t) {
   const double longest =
       std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
   // What a blow-up stretched is seen as well by fewer.
-  const int n = std::clamp(int(std::ceil(longest / kSpacing)), 1, 20);
+  const int n = std::clamp(int(std::ceil(longest / kProbeSpacing)), 1, 20);
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; i + j <= n; ++j) {
       body.samples.push_back(t[0] + (t[1] - t[0]) * (double(i) / n) +
@@ -124,7 +124,7 @@ double penetration(const Body& body, const btRigidBody& rigid) {
   }
   // What is metres large does not disappear in a lattice: the lattice's samples see it.
   if (bounds(rigid).sizes().maxCoeff() > 2.0) return depth;
-  for (const Vec3& p : probes_of(shape, kSpacing)) {
+  for (const Vec3& p : probes_of(shape, kProbeSpacing)) {
     depth = std::max(depth, depth_inside(body, rotation * p + origin));
   }
   return depth;
