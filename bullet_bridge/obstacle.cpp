@@ -10,16 +10,12 @@
 #include <utility>
 
 #include "bullet_bridge/shapes/face_penetration.h"
+#include "core/contact/bearing_contact.h"
 #include "core/contact/triangle.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 namespace {
-
-// A penetration that was there when a contact was first seen is taken back at this speed, m/s: it
-// bounds the kinetic energy per mass that easing out may cost to 1.25 mJ/kg, and clears a shell's
-// wall of 5 mm in 0.1 s. Without it pieces that thaw again and again sink into the floor.
-constexpr double kEaseSpeed = 0.05;
 
 // A contact is soft, as the point-point penalty, to this share of the point's contact radius (times
 // sqrt(S) for a softened object). There it stops what its springs do not hold (light points under a
@@ -60,12 +56,6 @@ PenaltyContact law_between(const LatticeObject& object, const btCollisionObject&
   law.restitution = attributes.restitution * body.getRestitution();
   law.friction = attributes.friction * body.getFriction();
   return law;
-}
-
-// Lowers the depth by what was there at first, which is taken back slowly and never grows.
-double eased(double depth, double& offset, double dt) {
-  offset = std::min(std::max(0.0, offset - kEaseSpeed * dt), std::max(0.0, depth));
-  return depth - offset;
 }
 
 double thickness(const ContactPart& part) {  // m
@@ -500,23 +490,16 @@ void Obstacle::settle(const Lattice& lattice, const ShadowBody& body, Pair<Place
 template <class Place>
 double Obstacle::bear(const Lattice& lattice, const ShadowBody& body, Pair<Place>& pair,
                       const PenaltyContact& law, double depth, double dt) const {
-  PassiveContact& books = pair.books;
   const Place& place = pair.pressed;
-  const double closing = -slip_at(lattice, body, place).dot(pair.normal);
   const Vec3 after = place.velocity_after(lattice, dt);
-  const double foreseen = (body.velocity_at(place.position(lattice)) - after).dot(pair.normal);
-  const double without = books.closing_without(foreseen);
-  const bool implicit = is_implicit(lattice, place.lawgiver());
-  double most = books.largest_impulse(implicit ? closing : 0.5 * (closing + without));
-  if (pair.offset > 0.0) {
-    books.forgive(law.elastic_energy(books.mass, std::max(0.0, depth)));
-    most = std::max(most, books.mass * (kEaseSpeed + closing));
-  }
-  const double gain = gain_of(lattice, body, place, pair.normal) * dt;
-  const double wanted = bearing_force(law, books.mass, depth, -without, gain, dt);
-  const double press = std::min(wanted, most / dt);
-  books.give(press * dt, closing, foreseen - press * gain);
-  return press;
+  Approach at;
+  at.depth = depth;
+  at.closing = -slip_at(lattice, body, place).dot(pair.normal);
+  at.foreseen = (body.velocity_at(place.position(lattice)) - after).dot(pair.normal);
+  at.foreseeable = !is_implicit(lattice, place.lawgiver());
+  at.easing = pair.offset > 0.0;
+  at.forgiven = law.elastic_energy(pair.books.mass, std::max(0.0, depth));
+  return limber::bear(pair.books, law, at, gain_of(lattice, body, place, pair.normal) * dt, dt);
 }
 
 template <class Place>

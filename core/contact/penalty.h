@@ -19,6 +19,7 @@ struct PenaltyContact {
   double soft_depth = std::numeric_limits<double>::infinity();  // m, to which omega_c holds
   double deep_frequency = 0.0;                                  // rad/s, beyond that
   double deepest = std::numeric_limits<double>::infinity();     // m, see bearing_force()
+  bool comes_back = false;                                      // from beyond that
 
   // Force without restitution, N.
   double elastic_force(double reduced_mass, double depth) const {
@@ -78,7 +79,9 @@ inline double bearing_force(const PenaltyContact& law, double reduced_mass, doub
   const double out = std::min(depth / kYieldTime, kYieldSpeed);
   const double damped = elastic * (out - separation_without) / (out + elastic * gain);
   const double borne = std::clamp(damped, law.restitution * law.restitution * elastic, elastic);
-  const double may_close = std::max(0.0, law.deepest - depth) / (kStopSubsteps * dt);
+  const double left = law.deepest - depth;  // m
+  double may_close = std::max(0.0, left) / (kStopSubsteps * dt);
+  if (left < 0.0 && law.comes_back) may_close = std::max(left / kYieldTime, -kYieldSpeed);
   return std::max(borne, (-separation_without - may_close) / gain);
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/contact/bearing_contact.h"
+
 namespace limber {
 namespace {
 
@@ -14,10 +16,6 @@ constexpr int kBrokenInterval = 8;
 // Of 4 / dt^2, the limit of an explicit step: the automatic step leaves 0.15 of it beyond springs
 // and point-point contacts (kStepSafety of lattice.cpp), of which friction takes a twentieth.
 constexpr double kStepShare = 0.1;
-
-// A penetration that was there when a point was first seen is taken back at this speed, m/s, and
-// pushes no faster: as against bodies. That may cost 1.25 mJ for each kilogram.
-constexpr double kEaseSpeed = 0.05;
 
 bool is_present(const Lattice& lattice, const OuterSurface& surface, std::int32_t point,
                 std::int32_t face) {
@@ -259,26 +257,17 @@ void SurfaceContacts::push(Lattice& lattice, Held& held, double dt) {
   const FaceMotion motion = motion_of(lattice, held);
   const FaceMobility mobility = mobility_of(lattice, held);
   const PenaltyContact law = law_of(lattice, held, dt);
-  const double separation = separation_speed(contact, motion);
   PassiveContact& books = held.books;
   books.share_mass(contact_mass(contact, mobility));
   if (std::isinf(books.mass)) return;
-  held.offset = std::min(std::max(0.0, held.offset - kEaseSpeed * dt), contact.depth);
-  const double foreseen = -separation_speed(contact, motion_after(lattice, held, dt));
-  const double without = books.closing_without(foreseen);
-  const bool foreseeable = !is_implicit(lattice, held.point) &&
-                           !is_implicit(lattice, surface_.corners(held.place.face)[0]);
-  const double after = foreseeable ? without : -separation;
-  double most = books.largest_impulse(0.5 * (after - separation));
-  if (held.offset > 0.0) {
-    books.forgive(0.0);
-    most = std::max(most, books.mass * (kEaseSpeed - separation));
-  }
-  const double gain = dt / books.mass;
-  const double wanted =
-      bearing_force(law, books.mass, contact.depth - held.offset, -without, gain, dt);
-  const double press = std::min(wanted, most / dt);
-  books.give(press * dt, -separation, foreseen - press * gain);
+  Approach at;
+  at.depth = eased(contact.depth, held.offset, dt);
+  at.closing = -separation_speed(contact, motion);
+  at.foreseen = -separation_speed(contact, motion_after(lattice, held, dt));
+  at.foreseeable = !is_implicit(lattice, held.point) &&
+                   !is_implicit(lattice, surface_.corners(held.place.face)[0]);
+  at.easing = held.offset > 0.0;
+  const double press = bear(books, law, at, dt / books.mass, dt);
   held.contact = contact;
   if (press <= 0.0) return;
   FaceForces forces = push_apart(contact, press);

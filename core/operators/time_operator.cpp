@@ -167,6 +167,7 @@ std::vector<double> TimeOperator::leads(double dt) const {
 void TimeOperator::refresh_contacts() {
   contacts_.refresh(lattice_, pieces(), contacts_stale_, carried_stale_);
   surface_contacts_.refresh(lattice_, pieces(), contacts_stale_, carried_stale_);
+  cell_contacts_.refresh(lattice_, contacts_stale_);
   contacts_stale_ = carried_stale_ = false;
 }
 
@@ -199,6 +200,7 @@ void TimeOperator::sum_forces(const Environment& environment, double time, doubl
   } else {
     contacts_.add_forces(lattice_);
   }
+  cell_contacts_.add_forces(lattice_, dt);
   surface_contacts_.add_forces(lattice_, dt);
   supports_ = {};
   if (!environment.ground) return;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/contact/cell_contacts.h"
 #include "core/contact/point_contacts.h"
 #include "core/contact/surface_contacts.h"
 #include "core/dynamics/component_tracker.h"
@@ -155,6 +156,7 @@ class TimeOperator {
   Integrator integrator_;
   double time_ = 0.0;
   PointContacts contacts_;
+  CellContacts cell_contacts_;
   SurfaceContacts surface_contacts_;
   GroundContact ground_;
   std::vector<DragFace> faces_;  // that feel the air

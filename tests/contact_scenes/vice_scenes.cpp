@@ -23,8 +23,9 @@ double face_at(double time, double share) {
 }
 
 RigidSpec jaw(double side, double share) {
-  return {.shape = box({kJawDepth, 1.0, 1.0}), .path = [=](double time) -> Vec3 {
-            return {side * (face_at(time, share) + 0.5 * kJawDepth), 0.5, 0.0};
+  // Down to below the ground: points sink into that a little, and would slip under.
+  return {.shape = box({kJawDepth, 1.2, 1.0}), .path = [=](double time) -> Vec3 {
+            return {side * (face_at(time, share) + 0.5 * kJawDepth), 0.4, 0.0};
           }};
 }
 
