@@ -204,7 +204,9 @@ void CellContacts::push(Lattice& lattice, Held& held, double dt) const {
   }
   held.contact = contact_at(lattice, held.point, held.face, kRoom * held.rest_height);
   if (held.contact.depth <= 0.0) {
+    const double debt = std::min(0.0, books.stored);
     books = {};
+    books.stored = debt;
     held.offset = 0.0;
     return;
   }

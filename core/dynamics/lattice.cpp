@@ -149,8 +149,10 @@ void set_step(LatticeObject& object, const PhysicalModel& model) {
   object.has_loose_points = has_loose_points(model);
   object.spring_frequency =
       (folds ? large_strain_bound(model) : highest_frequency(model)).omega_max;
-  object.heeds_strain =
-      !folds && 0.5 * least_damping_time(model) * object.spring_frequency < kCalmingDampingRatio;
+  const double damping_ratio = 0.5 * least_damping_time(model) * object.spring_frequency;
+  object.step_strain = folds                                  ? kUnbreakable
+                       : damping_ratio < kCalmingDampingRatio ? kSmallStrain
+                                                              : kCalmStrain;
   object.spring_damping =
       largest_damping_time(model) * object.spring_frequency * object.spring_frequency +
       pure_damping_rate(model);
@@ -324,13 +326,14 @@ double largest_contact_step(const LatticeObject& object) {
 
 bool is_strained(const Lattice& lattice, std::size_t index) {
   const LatticeObject& object = lattice.objects[index];
+  if (std::isinf(object.step_strain)) return false;
   for (std::int32_t e = object.edges.begin; e < object.edges.end; ++e) {
     const std::int32_t active = lattice.active_of_edge[e];
     if (active < 0 || lattice.active[active].stiffness == 0.0) continue;
     const Spring& s = lattice.active[active];
     const Vec3 d = lattice.motion[s.b].position - lattice.motion[s.a].position;
     const Vec3 w = lattice.motion[s.b].velocity - lattice.motion[s.a].velocity;
-    const double most = kSmallStrain * s.rest_length;
+    const double most = object.step_strain * s.rest_length;
     if (std::abs(d.norm() - s.rest_length) > most) return true;
     if (std::abs(w.dot(d)) > most * object.spring_frequency * d.norm()) return true;
   }

@@ -44,7 +44,7 @@ struct LatticeObject {
   double spring_damping = 0.0;     // 1/s, the damping rate 2 zeta omega there
   double contact_frequency = 0.0;  // omega_c of penalty.h, rad/s
   bool has_loose_points = false;   // without a spring: grains, and what broke off before
-  bool heeds_strain = false;       // larger strains need smaller steps: see LargestStrain
+  double step_strain = 0.0;        // up to which its step holds: see LargestStrain
   bool implicit = false;           // by implicit Euler: forces do not have those of its springs
   double least_mass = 0.0;         // kg, of a point
   double largest_step = 0.0;       // s, stable with its springs and contacts
@@ -114,10 +114,11 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model);
 // What the springs of an object are about to bear. The bound on its frequencies is that of the
 // shape at rest. Strain turns springs: their stiffness counts in new directions, and from a strain
 // of kSmallStrain on the vibrations of an undamped lattice feed one another at the full step.
-// Damping of kCalmingDampingRatio at the highest frequency keeps it stable up to motions of 0.1
-// (docs/limits.md has the numbers).
+// Damping of kCalmingDampingRatio at the highest frequency keeps it stable up to motions of
+// kCalmStrain (docs/limits.md has the numbers).
 enum class LargestStrain { kSmall, kAny };
 inline constexpr double kSmallStrain = 1e-3;
+inline constexpr double kCalmStrain = 0.1;
 inline constexpr double kCalmingDampingRatio = 0.01;
 
 // No shape has frequencies above this many times those of the shape at rest. k I bounds a spring's
@@ -133,8 +134,8 @@ double largest_step(const LatticeObject& object, double stiffness = 0.0, double 
 // The same as if it had no springs: what contacts allow.
 double largest_contact_step(const LatticeObject& object);
 
-// Is a spring of this object strained by more than kSmallStrain, or fast enough to be so within a
-// period of the highest frequency? At the cost of a pass over its springs.
+// Is a spring of this object strained by more than its step_strain, or fast enough to be so within
+// a radian of the highest frequency? At the cost of a pass over its springs.
 bool is_strained(const Lattice& lattice, std::size_t object);
 
 // Refreshes `active`, `dynamic_points` and `carried_points` after breaks and changes of role.

@@ -85,7 +85,7 @@ std::optional<Diagnostic> softness_note(const std::string& where, const Physical
                         " m/s: that strains it by about " + three_digits(landing->strain) +
                         " (its weight alone by " + three_digits(landing->sag_strain) +
                         "), and from about " + three_digits(landing->most_strain) +
-                        " on cells turn inside out and stay so",
+                        " on cells are crushed, and how it comes back is not the material's",
                     remedy_of(*landing, gravity_m_s2)};
 }
 

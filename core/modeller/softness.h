@@ -9,8 +9,9 @@
 namespace limber {
 
 // Central forces do not keep a cell from being pushed flat and on: its mirror image is as free of
-// force as the cell itself. A solid that lands too hard for its stiffness turns cells inside out,
-// and stays so. What follows says it before it happens.
+// force as the cell itself. A solid that lands too hard for its stiffness turns cells inside out.
+// Contact within cells (core/contact/cell_contacts.h) turns them back, as nothing in the material
+// does. What follows says it before it happens.
 
 // Speed of sound in a bar of what the springs are, sqrt(E / rho), m/s, from the springs themselves:
 // the trace A_iijj = sum k l^2 / V of the tensor of a solid of central forces is 6 E (see

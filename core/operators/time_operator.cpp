@@ -44,7 +44,7 @@ double TimeOperator::largest_step_of(std::size_t index, const Environment& envir
   const bool penalty = environment.ground && std::isfinite(environment.ground->stiffness);
   const double stiffness = penalty ? environment.ground->stiffness : 0.0;
   const double damping = penalty ? environment.ground->damping : 0.0;
-  const bool strained = object.heeds_strain && is_strained(lattice_, index);
+  const bool strained = is_strained(lattice_, index);
   return limber::largest_step(object, stiffness, damping,
                               strained ? LargestStrain::kAny : LargestStrain::kSmall);
 }

@@ -58,9 +58,14 @@ TEST(Softness, TheMostSpeedIsWhereTheLandingStrainReachesItsLimit) {
   EXPECT_EQ(landing_estimate(cube(1.0, 4, gelatine()), 0.0, kGravity)->most_speed(), 0.0);
 }
 
-// Cells that are inside out after the thing fell on hard, rough ground and came to rest, or at any
-// of the looks on the way.
-std::size_t most_inverted(PhysicalModel model, double speed) {
+struct Fall {
+  std::size_t most_inverted = 0;  // cells, at any of the looks
+  std::size_t inverted = 0;       // at the end
+  double height = 0.0;            // m, then
+};
+
+// On hard, rough ground, until it has come to rest or is on its way up.
+Fall fall(PhysicalModel model, double speed) {
   const LandingEstimate landing = *landing_estimate(model, speed, kGravity);
   set_in_motion(model, {0.0, -speed, 0.0}, Vec3::Zero());
   Lattice lattice;
@@ -69,18 +74,24 @@ std::size_t most_inverted(PhysicalModel model, double speed) {
   TimeOperator time(lattice);
   const Environment earth{.gravity = {0.0, -kGravity, 0.0},
                           .ground = Ground{.static_friction = 0.5, .kinetic_friction = 0.5}};
-  const double seconds = 20.0 * landing.height / landing.wave_speed;
   const int looks = 100;
-  const double dt = std::min(time.largest_step(earth), seconds / looks);
-  std::size_t most = 0;
+  const double between = 20.0 * landing.height / landing.wave_speed / looks;  // s
+  Fall seen;
   for (int i = 0; i < looks; ++i) {
-    time.advance(static_cast<int>(std::ceil(seconds / looks / dt)), dt, earth);
+    const auto substeps = static_cast<int>(std::ceil(between / time.largest_step(earth)));
+    time.advance(substeps, between / substeps, earth);
     const PhysicalModel now = extract_model(lattice, 0);
-    std::size_t inverted = 0;
-    for (CellId c : ids_of(now.geometry.cells)) inverted += cell_volume(now.geometry, c) <= 0.0;
-    most = std::max(most, inverted);
+    seen.inverted = 0;
+    for (CellId c : ids_of(now.geometry.cells)) {
+      seen.inverted += cell_volume(now.geometry, c) <= 0.0;
+    }
+    seen.most_inverted = std::max(seen.most_inverted, seen.inverted);
+    const auto by_y = [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); };
+    const auto& x = now.geometry.points;
+    const auto [low, high] = std::minmax_element(x.begin(), x.end(), by_y);
+    seen.height = high->y() - low->y();
   }
-  return most;
+  return seen;
 }
 
 // Without breaking, which would take cells away that could turn inside out.
@@ -99,20 +110,29 @@ TEST_P(Landing, TurnsNoCellInsideOutBelowTheLimit) {
     const PhysicalModel model = cube(0.1, GetParam(), jelly(modulus));
     const double speed = landing_estimate(model, 0.0, kGravity)->most_speed();
     EXPECT_GT(speed, 0.0);
-    EXPECT_EQ(most_inverted(model, speed), 0u) << modulus;
+    EXPECT_EQ(fall(model, speed).most_inverted, 0u) << modulus;
     EXPECT_FALSE(softness_note("cube", model, 0.999 * speed, kGravity));
   }
 }
 
-TEST_P(Landing, TurnsCellsInsideOutWellAboveTheLimit) {
+// At strains of 1.75 times the limit, and speeds of twice and four times that (20 m/s at the most).
+// Without contact within cells it lies flat then, or has blown up; with it, it still swings a
+// little.
+TEST_P(Landing, ComesBackFromWellAboveTheLimit) {
   for (double modulus : {1.2e4, 5e4}) {
     const PhysicalModel model = cube(0.1, GetParam(), jelly(modulus));
     const LandingEstimate still = *landing_estimate(model, 0.0, kGravity);
-    double speed = still.most_speed();  // until the strain is 1.75 times the limit
+    double speed = still.most_speed();
     while (landing_strain(still.sag_strain, speed, still.wave_speed) < 1.75 * still.most_strain)
       speed *= 1.01;
-    EXPECT_GT(most_inverted(model, speed), 0u) << modulus;
     EXPECT_TRUE(softness_note("cube", model, speed, kGravity));
+    if (GetParam() == 2) continue;  // two layers do not get back: docs/limits.md
+    EXPECT_GT(fall(model, 2.0 * speed).most_inverted, 0u) << modulus;
+    for (double times : {1.0, 2.0, 4.0}) {
+      const Fall seen = fall(model, times * speed);
+      EXPECT_EQ(seen.inverted, 0u) << modulus << " Pa, " << times * speed << " m/s";
+      EXPECT_GT(seen.height, 0.07) << modulus << " Pa, " << times * speed << " m/s";
+    }
   }
 }
 
