@@ -27,9 +27,11 @@ double impulse_of(const btPersistentManifold& manifold) {
 }  // namespace
 
 void CoSimulation::Impl::after_solve(double dt) {
-  if (!failure_) take_joints(dt);
-  read_contacts();
-  for (Piece* piece : flexible_pieces()) piece->joint_load = 0.0;
+  if (!failure_) {
+    take_joints(dt);
+    read_contacts();
+    for (Piece* piece : flexible_pieces()) piece->joint_load = 0.0;
+  }
   joint_loads_.end();
   if (failure_ || !switching() || pieces_.empty()) return;
   try {
@@ -60,6 +62,7 @@ void CoSimulation::Impl::read_contacts() {
 }
 
 void CoSimulation::Impl::after_move(double dt) {
+  in_tick_ = false;
   if (failure_) return;
   // Flags of bodies that both have touched: the first has the game's, so it comes last.
   if (stepped_late_) late_contacts_.correct_poses(dt);
@@ -162,7 +165,7 @@ void CoSimulation::Impl::split(const Piece& piece, std::vector<std::vector<std::
   SplitRecord record{.time = time_, .object = piece.object, .piece = piece.id};
   const Vec3 middle = rigid_motion(lattice_.motion, lattice_.mass, piece.points).centre;
   const std::optional<std::size_t> heir = heir_among(piece, groups);
-  if (!heir) keep_for_joints(piece.seen->shared_body());
+  if (!heir) keep_for_joints(piece.object, piece.seen->shared_body());
   for (std::size_t i = 0; i < groups.size(); ++i) {
     std::vector<std::int32_t>& points = groups[i];
     if (becomes_debris(points)) {

@@ -27,6 +27,7 @@ double mass_of(const btCollisionObject& object) {
 }  // namespace
 
 void CoSimulation::Impl::before_solve(double dt) {
+  in_tick_ = true;
   if (failure_) return;
   stepped_lattice_ = stepped_late_ = false;
   broken_in_tick_ = 0;
@@ -340,6 +341,7 @@ int CoSimulation::Impl::substeps_for(double dt) {
 void CoSimulation::Impl::make_stiffest_implicit(double dt) {
   for (std::size_t o = 0; o < lattice_.objects.size(); ++o) {
     const LatticeObject& object = lattice_.objects[o];
+    if (removed_[o]) continue;
     const double wanted = substeps_wanted_by(o, dt);
     if (integration_[o] != Integration::kAutomatic || time_operator_.is_implicit(o)) continue;
     if (!(wanted > settings_.most_substeps)) continue;

@@ -50,6 +50,9 @@ class ContactSolver : public SubstepCoupling {
     shadows_ = {};
   }
 
+  // The body has left the world.
+  void forget(const btCollisionObject& body) { shadows_.forget(body); }
+
   // The body is no longer one: its pose and flags are not this solver's business any more.
   void let_go(const btCollisionObject& object);
 

@@ -159,12 +159,12 @@ void CoSimulation::Impl::disable(btTypedConstraint& joint, std::size_t object) {
 }
 
 // Joints go on naming a body of which nothing is left but debris: it has to outlive them.
-void CoSimulation::Impl::keep_for_joints(std::shared_ptr<PieceBody> body) {
+void CoSimulation::Impl::keep_for_joints(std::size_t object, std::shared_ptr<PieceBody> body) {
   if (joints_of(world_, *body).empty()) return;
   body->leave();
   body->setCollisionShape(nullptr);
   body->setIslandTag(-1);
-  orphans_.push_back(std::move(body));
+  orphans_.push_back({object, std::move(body)});
 }
 
 void CoSimulation::Impl::apply_impulse(std::size_t object, const Vec3& impulse, const Vec3& at) {

@@ -17,6 +17,8 @@ class ShadowSet {
   void next_tick();
   // The shadow of an object, made on first use.
   int shadow_of(const btCollisionObject& object);
+  // Another object may get its address.
+  void forget(const btCollisionObject& object) { index_.erase(&object); }
   // -1 when it has none.
   int find(const btCollisionObject& object) const;
   ShadowBody& operator[](int i) { return shadows_[static_cast<std::size_t>(i)]; }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "tests/bridge/measure.h"
 #include "tests/bridge/models.h"
@@ -269,12 +270,17 @@ TEST(Joint, OnWhatTurnsToDebrisOutlivesIt) {
     for (EdgeAttributes& edge : model.edges) edge.break_threshold = 1e-6;
     simulation.add(model);
     btRigidBody& body = *simulation.pieces().at(0).body;
-    BallJoint joint(world, body, local_place(body, Vec3::Zero()));
+    std::optional<BallJoint> joint(std::in_place, world, body, local_place(body, Vec3::Zero()));
     btRigidBody& slab = world.add_box({0.2, 0.05, 0.2}, 5.0, {0.0, 0.15, 0.0});
     slab.setLinearVelocity(btVector3(0, -5, 0));
     world.run(0.5, kTick);
     EXPECT_TRUE(simulation.pieces().empty());
-    EXPECT_FALSE(joint->isEnabled());
+    EXPECT_FALSE((*joint)->isEnabled());
+    // It names a body of which nothing is left, and has to go before the object.
+    ASSERT_EQ(simulation.constraints_on(0).size(), 1u);
+    EXPECT_THROW(simulation.remove(0), InputError);
+    joint.reset();
+    simulation.remove(0);
   }
   world.run(0.1, kTick);
 }
