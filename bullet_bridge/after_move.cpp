@@ -41,12 +41,23 @@ void CoSimulation::Impl::after_solve(double dt) {
   }
 }
 
-// Sleeping proxies keep what they bore when they fell asleep.
+// Sleeping proxies keep what they bore when they fell asleep, until something wakes them in the
+// tick.
 void CoSimulation::Impl::read_contacts() {
+  std::vector<Piece*> counted;
+  const auto count = [&](Piece* piece, double impulse) {
+    if (!piece || !piece->body().isActive()) return;
+    if (!piece->counted) {
+      piece->proxy->impulse = 0.0;
+      piece->counted = true;
+      counted.push_back(piece);
+    }
+    piece->proxy->impulse += impulse;
+  };
   for (Piece* piece : index_.awake()) {
     if (!piece->body().isActive()) continue;
     piece->joint_load = 0.0;
-    if (!piece->flexible()) piece->proxy->impulse = 0.0;
+    if (!piece->flexible()) count(piece, 0.0);
   }
   if (index_.awake().empty()) return;
   btDispatcher& dispatcher = *world_.getDispatcher();
@@ -56,9 +67,10 @@ void CoSimulation::Impl::read_contacts() {
     Piece* a = index_.rigid(*manifold.getBody0());
     Piece* b = index_.rigid(*manifold.getBody1());
     const double impulse = impulse_of(manifold);
-    if (a && a->body().isActive()) a->proxy->impulse += impulse;
-    if (b && b->body().isActive()) b->proxy->impulse += impulse;
+    count(a, impulse);
+    count(b, impulse);
   }
+  for (Piece* piece : counted) piece->counted = false;
 }
 
 void CoSimulation::Impl::after_move(double dt) {

@@ -137,6 +137,9 @@ class CoSimulation::Impl : public TickHooks {
   void make_stiffest_implicit(double dt);
   double substeps_wanted_by(std::size_t object, double dt) const;
   [[noreturn]] void refuse_step(double substeps) const;
+  std::vector<Vec3> velocities_of(const std::vector<Piece*>& pieces) const;
+  void follow_parabola(const std::vector<Piece*>& pieces, const std::vector<Vec3>& before,
+                       double substep);
   void note(const StepReport& report);
   bool switching() const { return settings_.representation == Representation::kSwitching; }
   void consider_pair(Piece& piece, const btCollisionObject& other, double dt);
@@ -162,6 +165,7 @@ class CoSimulation::Impl : public TickHooks {
   void start(Piece& piece);
   void take_changes_of_game(Piece& piece, double dt);
   bool jointed(const Piece& piece) const;
+  void wake_what_hangs_on(const Piece& piece);
   std::vector<std::int32_t> points_at_joints(const Piece& piece) const;
   std::optional<std::size_t> heir_among(const Piece& piece,
                                         const std::vector<std::vector<std::int32_t>>& groups);

@@ -60,9 +60,13 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTra
   }
   const std::vector<SupportContact> contacts =
       gather_support_contacts(*world.getDispatcher(), shadows_);
-  supports_ = group_support_contacts(contacts, shadows_);
+  supports_ =
+      group_support_contacts(contacts, shadows_, touches_beyond(*world.getDispatcher(), shadows_));
   supported_.assign(static_cast<std::size_t>(shadows_.size()), false);
-  for (const SupportContact& c : contacts) supported_[c.a] = supported_[c.b] = true;
+  for (const SupportGroup& group : supports_) {
+    if (!group.stands) continue;  // on lattices alone, if anything
+    for (const SupportContact& c : group.contacts) supported_[c.a] = supported_[c.b] = true;
+  }
   if (gravity_ == Gravity::kToCome) return;
   for (int i = 0; i < shadows_.size(); ++i) {
     const btRigidBody* body = shadows_[i].body;

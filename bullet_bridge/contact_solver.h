@@ -92,7 +92,7 @@ class ContactSolver : public SubstepCoupling {
   std::vector<PointLoad> loads_;
   std::vector<CarriedPiece> carried_;
   std::vector<int> carried_shadow_;
-  std::vector<bool> supported_;  // by shadow: has support contacts, so that Bullet adds its gravity
+  std::vector<bool> supported_;  // by shadow: stands on something, so that Bullet adds its gravity
   std::vector<ContactCluster> clusters_;
   const BoundaryTracker* boundary_ = nullptr;
   const Components* pieces_ = nullptr;

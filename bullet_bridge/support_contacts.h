@@ -55,16 +55,21 @@ inline constexpr int kSupportRings = 3;
 // shadow for each body on the way. Call it when the first ring is in the set.
 std::vector<SupportContact> gather_support_contacts(btDispatcher& dispatcher, ShadowSet& shadows);
 
+// Which shadows touch, in Bullet's manifolds, what has no shadow: the last ring does.
+std::vector<bool> touches_beyond(btDispatcher& dispatcher, const ShadowSet& shadows);
+
 // Contacts that hang together through movable bodies: solved as one, and only when the lattice
 // pushed one of their bodies.
 struct SupportGroup {
   std::vector<SupportContact> contacts;
   std::vector<int> bodies;  // movable shadows
   bool loaded = false;
+  bool stands = false;  // on something immovable, or on bodies without a shadow
 };
 
 std::vector<SupportGroup> group_support_contacts(const std::vector<SupportContact>& contacts,
-                                                 const ShadowSet& shadows);
+                                                 const ShadowSet& shadows,
+                                                 const std::vector<bool>& beyond);
 
 // One substep of non-penetration with Coulomb friction: sequential impulses, started from those of
 // the last substep. A gap may close within dt but not beyond.

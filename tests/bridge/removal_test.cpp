@@ -71,16 +71,17 @@ TEST_P(Removal, LetsWhatLayOnItFall) {
 
 // It wakes, and falls from the next tick on as any body does: with the gravity of one tick.
 TEST_P(Removal, WakesWhatSleptOnIt) {
-  if (GetParam() == Representation::kAlwaysFlexible) return;  // on a lattice nothing sleeps
   World world;
   world.add_ground();
   CoSimulation simulation(*world, settings());
   simulation.add(soft_block({0.0, 0.15, 0.0}));
-  btRigidBody& lower = world.add_box(Vec3::Constant(kBoxHalf), 2.0, {0.0, 0.4, 0.0});
-  btRigidBody& upper = world.add_box(Vec3::Constant(kBoxHalf), 2.0, {0.0, 0.6, 0.0});
+  btRigidBody& lower = world.add_box(Vec3::Constant(kBoxHalf), 0.1, {0.0, 0.4, 0.0});
+  btRigidBody& upper = world.add_box(Vec3::Constant(kBoxHalf), 0.1, {0.0, 0.6, 0.0});
   world.run(5.0, kTick);
-  ASSERT_FALSE(lower.isActive());
-  ASSERT_FALSE(upper.isActive());
+  if (GetParam() != Representation::kAlwaysFlexible) {  // on a lattice nothing sleeps for long
+    ASSERT_FALSE(lower.isActive());
+    ASSERT_FALSE(upper.isActive());
+  }
   simulation.remove(0);
   world.step(kTick);
   for (const btRigidBody* box : {&lower, &upper}) {
