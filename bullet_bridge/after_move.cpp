@@ -247,6 +247,7 @@ void CoSimulation::Impl::freeze_calm_pieces(double dt) {
       continue;
     }
     if (!piece->touched) ++counters_.needless;
+    contacts_.keep(piece->id, piece->points);
     freeze_piece(*piece, "calm", numbers_of(*piece, seen));
     note_carried_load(*piece, pressed);
     // Bullet gives gravity once per stepSimulation; this body has missed it, should more ticks

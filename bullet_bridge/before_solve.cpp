@@ -221,6 +221,7 @@ void CoSimulation::Impl::thaw_piece(Piece& piece, const std::string& cause, Numb
       body.setLinearVelocity(body.getLinearVelocity() - body.getGravity() * btScalar(tick_));
     }
   }
+  (thawing_late_ ? late_contacts_ : contacts_).take_up(contacts_.give_up(piece.id));
   const HandOver books = thaw(lattice_, piece.points, *piece.proxy);
   switches_.push_back({time_, piece.object, piece.id, cause, std::move(numbers), books});
   ++counters_.to_flexible;

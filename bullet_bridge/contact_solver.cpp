@@ -87,6 +87,35 @@ void ContactSolver::take_over(ContactSolver&& other) {
   }
 }
 
+void ContactSolver::keep(std::size_t piece, std::span<const std::int32_t> points) {
+  std::vector<Obstacle> kept;
+  for (const Obstacle& obstacle : obstacles_) {
+    Obstacle memory = obstacle.memory_of(points);
+    if (memory.remembers()) kept.push_back(std::move(memory));
+  }
+  if (!kept.empty()) kept_[piece] = std::move(kept);
+}
+
+std::vector<Obstacle> ContactSolver::give_up(std::size_t piece) {
+  const auto known = kept_.find(piece);
+  if (known == kept_.end()) return {};
+  std::vector<Obstacle> kept = std::move(known->second);
+  kept_.erase(known);
+  return kept;
+}
+
+void ContactSolver::take_up(std::vector<Obstacle> kept) {
+  for (Obstacle& obstacle : kept) due_.push_back(std::move(obstacle));
+}
+
+void ContactSolver::go_on_with_due(const Lattice& lattice) {
+  for (const Obstacle& memory : std::exchange(due_, {})) {
+    const auto same = [&](const Obstacle& now) { return &now.object() == &memory.object(); };
+    const auto now = std::find_if(obstacles_.begin(), obstacles_.end(), same);
+    if (now != obstacles_.end()) now->take_up(memory, lattice, shadows_[now->shadow()]);
+  }
+}
+
 void ContactSolver::let_go(const btCollisionObject& object) {
   const int i = shadows_.find(object);
   if (i < 0 || !shadows_[i].touched) return;
@@ -114,6 +143,7 @@ void ContactSolver::press(Lattice& lattice, const ContactCluster& cluster, doubl
 }
 
 void ContactSolver::list_pairs(const Lattice& lattice, double dt) {
+  go_on_with_due(lattice);
   double fastest = 0.0;
   for (std::int32_t p : lattice.dynamic_points) {
     fastest = std::max(fastest, lattice.motion[p].velocity.squaredNorm());

@@ -98,6 +98,7 @@ void CoSimulation::Impl::remove(std::size_t object) {
     if (!is_of_it(piece)) continue;
     wake_what_touches(world_, piece->body());
     contacts_.forget(piece->body());
+    contacts_.give_up(piece->id);
     counters_.stored_J -= piece->stored_J;
   }
   std::erase_if(pieces_, is_of_it);
