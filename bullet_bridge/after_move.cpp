@@ -27,9 +27,11 @@ double impulse_of(const btPersistentManifold& manifold) {
 }  // namespace
 
 void CoSimulation::Impl::after_solve(double dt) {
-  if (!failure_) take_joints(dt);
-  read_contacts();
-  for (Piece* piece : flexible_pieces()) piece->joint_load = 0.0;
+  if (!failure_) {
+    take_joints(dt);
+    read_contacts();
+    for (Piece* piece : flexible_pieces()) piece->joint_load = 0.0;
+  }
   joint_loads_.end();
   if (failure_ || !switching() || pieces_.empty()) return;
   try {
@@ -39,12 +41,23 @@ void CoSimulation::Impl::after_solve(double dt) {
   }
 }
 
-// Sleeping proxies keep what they bore when they fell asleep.
+// Sleeping proxies keep what they bore when they fell asleep, until something wakes them in the
+// tick.
 void CoSimulation::Impl::read_contacts() {
+  std::vector<Piece*> counted;
+  const auto count = [&](Piece* piece, double impulse) {
+    if (!piece || !piece->body().isActive()) return;
+    if (!piece->counted) {
+      piece->proxy->impulse = 0.0;
+      piece->counted = true;
+      counted.push_back(piece);
+    }
+    piece->proxy->impulse += impulse;
+  };
   for (Piece* piece : index_.awake()) {
     if (!piece->body().isActive()) continue;
     piece->joint_load = 0.0;
-    if (!piece->flexible()) piece->proxy->impulse = 0.0;
+    if (!piece->flexible()) count(piece, 0.0);
   }
   if (index_.awake().empty()) return;
   btDispatcher& dispatcher = *world_.getDispatcher();
@@ -54,12 +67,14 @@ void CoSimulation::Impl::read_contacts() {
     Piece* a = index_.rigid(*manifold.getBody0());
     Piece* b = index_.rigid(*manifold.getBody1());
     const double impulse = impulse_of(manifold);
-    if (a && a->body().isActive()) a->proxy->impulse += impulse;
-    if (b && b->body().isActive()) b->proxy->impulse += impulse;
+    count(a, impulse);
+    count(b, impulse);
   }
+  for (Piece* piece : counted) piece->counted = false;
 }
 
 void CoSimulation::Impl::after_move(double dt) {
+  in_tick_ = false;
   if (failure_) return;
   // Flags of bodies that both have touched: the first has the game's, so it comes last.
   if (stepped_late_) late_contacts_.correct_poses(dt);
@@ -162,7 +177,7 @@ void CoSimulation::Impl::split(const Piece& piece, std::vector<std::vector<std::
   SplitRecord record{.time = time_, .object = piece.object, .piece = piece.id};
   const Vec3 middle = rigid_motion(lattice_.motion, lattice_.mass, piece.points).centre;
   const std::optional<std::size_t> heir = heir_among(piece, groups);
-  if (!heir) keep_for_joints(piece.seen->shared_body());
+  if (!heir) keep_for_joints(piece.object, piece.seen->shared_body());
   for (std::size_t i = 0; i < groups.size(); ++i) {
     std::vector<std::int32_t>& points = groups[i];
     if (becomes_debris(points)) {
@@ -232,6 +247,7 @@ void CoSimulation::Impl::freeze_calm_pieces(double dt) {
       continue;
     }
     if (!piece->touched) ++counters_.needless;
+    contacts_.keep(piece->id, piece->points);
     freeze_piece(*piece, "calm", numbers_of(*piece, seen));
     note_carried_load(*piece, pressed);
     // Bullet gives gravity once per stepSimulation; this body has missed it, should more ticks

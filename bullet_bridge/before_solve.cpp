@@ -27,6 +27,7 @@ double mass_of(const btCollisionObject& object) {
 }  // namespace
 
 void CoSimulation::Impl::before_solve(double dt) {
+  in_tick_ = true;
   if (failure_) return;
   stepped_lattice_ = stepped_late_ = false;
   broken_in_tick_ = 0;
@@ -85,11 +86,12 @@ void CoSimulation::Impl::consider_touch(Piece& piece, const btCollisionObject& o
   const double limit = flexible_strain(piece.strength, settings_.switching);
   const btRigidBody& body = piece.proxy->body();
   // Most pairs rest on one another: a bound on the speed spares them the exact query.
-  const double bound = largest_closing_speed(body, piece.proxy->reach(), other, dt);
+  const TickGravity gravity = thawing_late_ ? TickGravity::kGiven : TickGravity::kToCome;
+  const double bound = largest_closing_speed(body, piece.proxy->reach(), other, dt, gravity);
   if (bound <= limit * piece.strength.wave_speed) return;
   const double partner = mass_of(other);
   if (impact_strain(piece.strength, bound, partner) <= limit) return;
-  std::optional<PredictedTouch> touch = predict_touch(body, other, dt);
+  std::optional<PredictedTouch> touch = predict_touch(body, other, dt, gravity);
   if (!touch) return;
   if (touch->time == 0.0) swing_round(piece, other, *touch, dt);
   const double strain = impact_strain(piece.strength, touch->closing_speed, partner);
@@ -219,6 +221,7 @@ void CoSimulation::Impl::thaw_piece(Piece& piece, const std::string& cause, Numb
       body.setLinearVelocity(body.getLinearVelocity() - body.getGravity() * btScalar(tick_));
     }
   }
+  (thawing_late_ ? late_contacts_ : contacts_).take_up(contacts_.give_up(piece.id));
   const HandOver books = thaw(lattice_, piece.points, *piece.proxy);
   switches_.push_back({time_, piece.object, piece.id, cause, std::move(numbers), books});
   ++counters_.to_flexible;
@@ -340,6 +343,7 @@ int CoSimulation::Impl::substeps_for(double dt) {
 void CoSimulation::Impl::make_stiffest_implicit(double dt) {
   for (std::size_t o = 0; o < lattice_.objects.size(); ++o) {
     const LatticeObject& object = lattice_.objects[o];
+    if (removed_[o]) continue;
     const double wanted = substeps_wanted_by(o, dt);
     if (integration_[o] != Integration::kAutomatic || time_operator_.is_implicit(o)) continue;
     if (!(wanted > settings_.most_substeps)) continue;
@@ -376,11 +380,40 @@ void CoSimulation::Impl::step(const std::vector<Piece*>& flexible, ContactSolver
   const int substeps = substeps_for(dt);
   environment_.gravity = from_bullet(world_.getGravity());
   time_operator_.set_time(time_);
+  const std::vector<Vec3> before = velocities_of(flexible);
   const StepReport report =
       time_operator_.advance(substeps, dt / substeps, environment_, &contacts);
   contacts.write_velocities(world_, dt);
+  follow_parabola(flexible, before, dt / substeps);
   stepped_lattice_ = true;
   note(report);
+}
+
+// m/s, of their centres of mass.
+std::vector<Vec3> CoSimulation::Impl::velocities_of(const std::vector<Piece*>& pieces) const {
+  std::vector<Vec3> velocities;
+  for (const Piece* piece : pieces) {
+    velocities.push_back(rigid_motion(lattice_.motion, lattice_.mass, piece->points).velocity);
+  }
+  return velocities;
+}
+
+// Semi-implicit Euler, x += v' h, goes a h^2 / 2 too far in every substep: g t h / 2 after a fall
+// of t (0.14 mm after 0.45 s at h = 65 us). What nothing touched, and no joint holds, moves as a
+// proxy does, x += (v + v') h / 2 (RigidProxy::fly()); what is touched has met others where it was.
+void CoSimulation::Impl::follow_parabola(const std::vector<Piece*>& pieces,
+                                         const std::vector<Vec3>& before, double substep) {
+  const std::vector<Vec3> after = velocities_of(pieces);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& piece = *pieces[i];
+    const auto touched = [&](std::int32_t p) { return lattice_.touched[p] != 0; };
+    if (piece.pinned || jointed(piece) ||
+        std::any_of(piece.points.begin(), piece.points.end(), touched)) {
+      continue;
+    }
+    const Vec3 shift = -0.5 * substep * (after[i] - before[i]);
+    for (std::int32_t p : piece.points) lattice_.motion[p].position += shift;
+  }
 }
 
 void CoSimulation::Impl::note(const StepReport& report) {

@@ -44,6 +44,7 @@ std::size_t CoSimulation::Impl::add(PhysicalModel model, Integration integration
   }
   const std::size_t object = add_object(lattice_, std::move(model));
   integration_.push_back(integration);
+  removed_.push_back(false);
   if (integration == Integration::kImplicit) time_operator_.make_implicit(object);
   rebuild_active(lattice_);
   time_operator_.roles_changed();
@@ -97,6 +98,15 @@ std::size_t CoSimulation::add(PhysicalModel model, std::optional<Integration> in
   return impl_->add(std::move(model), integration.value_or(impl_->settings_.integration));
 }
 
+void CoSimulation::remove(std::size_t object) { impl_->remove(object); }
+
+bool CoSimulation::has_object(std::size_t object) const { return impl_->has_object(object); }
+
+std::vector<btTypedConstraint*> CoSimulation::constraints_on(std::size_t object) const {
+  impl_->require_object(object);
+  return impl_->constraints_on(object);
+}
+
 void CoSimulation::set_air(std::optional<Air> air) {
   Environment changed = impl_->environment_;
   changed.air = std::move(air);
@@ -107,6 +117,7 @@ void CoSimulation::set_air(std::optional<Air> air) {
 const std::optional<Air>& CoSimulation::air() const { return impl_->environment_.air; }
 
 PhysicalModel CoSimulation::model(std::size_t object) const {
+  impl_->require_object(object);
   impl_->sync_points();
   return extract_model(impl_->lattice_, object);
 }
@@ -148,14 +159,16 @@ std::optional<std::size_t> CoSimulation::object_of(const btCollisionObject& body
 }
 
 void CoSimulation::apply_impulse(std::size_t object, const Vec3& impulse, const Vec3& at) {
-  if (object >= object_count() || !impulse.allFinite() || !at.allFinite()) {
-    throw InputError({"impulse", "its object is missing, or it or its place is not finite",
-                      "name an object that was added, and finite numbers"});
+  impl_->require_object(object);
+  if (!impulse.allFinite() || !at.allFinite()) {
+    throw InputError(
+        {"impulse", "it, or the place it acts on, is not finite", "give finite numbers"});
   }
   impl_->apply_impulse(object, impulse, at);
 }
 
 double CoSimulation::debris_mass(std::size_t object) const {
+  impl_->require_object(object);
   double mass = 0.0;
   for (std::int32_t p : impl_->points_of_object(object)) mass += impl_->lattice_.mass[p];
   for (const auto& piece : impl_->pieces_) {
@@ -165,6 +178,7 @@ double CoSimulation::debris_mass(std::size_t object) const {
 }
 
 std::vector<bool> CoSimulation::flexible_points(std::size_t object) const {
+  impl_->require_object(object);
   const IdRange<PointId>& range = impl_->lattice_.objects[object].points;
   std::vector<bool> flexible(range.size(), false);
   for (const auto& piece : impl_->pieces_) {
@@ -175,6 +189,7 @@ std::vector<bool> CoSimulation::flexible_points(std::size_t object) const {
 }
 
 std::pair<Mat3, Vec3> CoSimulation::placement(std::size_t object) const {
+  impl_->require_object(object);
   impl_->sync_points();
   const Lattice& lattice = impl_->lattice_;
   const std::vector<std::int32_t> points = impl_->points_of_object(object);

@@ -20,6 +20,7 @@
 class btCollisionObject;
 class btDiscreteDynamicsWorld;
 class btRigidBody;
+class btTypedConstraint;
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
@@ -146,6 +147,20 @@ class CoSimulation {
   // `integration`: of this object; none: that of the settings.
   std::size_t add(PhysicalModel model, std::optional<Integration> integration = {});
 
+  // Takes an object out of the world, whatever it is just now: all of its pieces with their bodies,
+  // its debris and its contacts. What touched it wakes. Its index is not used again, those of
+  // others stay, and so do all records; questions about it throw InputError from now on. Not during
+  // a step. Throws InputError, and removes nothing, for an object that is missing and while
+  // constraints of the game name its bodies: take constraints_on() out of the world first.
+  void remove(std::size_t object);
+
+  // Is the object there: added, and not removed?
+  bool has_object(std::size_t object) const;
+
+  // The game's constraints in the world that name bodies of the object, also those that a break
+  // disabled, in the order of the world. Constraints of multi-bodies are not among them.
+  std::vector<btTypedConstraint*> constraints_on(std::size_t object) const;
+
   // The air that all faces with a drag coefficient feel, in either representation. None at first.
   // Change the wind between steps; its animation goes by the simulation's time. Throws InputError.
   void set_air(std::optional<Air> air);
@@ -174,7 +189,7 @@ class CoSimulation {
   // What was decided on the way that a user should know.
   const std::vector<Diagnostic>& notes() const;
 
-  std::size_t object_count() const;
+  std::size_t object_count() const;  // that were ever added: indices are below
   std::vector<PieceView> pieces() const;
   double debris_mass(std::size_t object) const;  // kg, points without edges
   // Per point of the object: is it part of a lattice now?

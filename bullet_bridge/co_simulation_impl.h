@@ -42,6 +42,12 @@ class CoSimulation::Impl : public TickHooks {
   void after_move(double dt) override;
 
   std::size_t add(PhysicalModel model, Integration integration);
+  void remove(std::size_t object);
+  bool has_object(std::size_t object) const {
+    return object < removed_.size() && !removed_[object];
+  }
+  void require_object(std::size_t object) const;  // throws InputError
+  std::vector<btTypedConstraint*> constraints_on(std::size_t object) const;
   void apply_impulse(std::size_t object, const Vec3& impulse, const Vec3& at);
   void sync_points() const;
   std::vector<std::int32_t> points_of_object(std::size_t object) const;
@@ -52,6 +58,7 @@ class CoSimulation::Impl : public TickHooks {
   mutable Lattice lattice_;
   TimeOperator time_operator_{lattice_, Integrator::kSymplecticEuler, settings_.springs};
   std::vector<Integration> integration_;  // shape (objects)
+  std::vector<bool> removed_;             // shape (objects)
   Environment environment_;
   BoundaryTracker boundary_;
   ContactSolver contacts_, late_contacts_;
@@ -63,9 +70,13 @@ class CoSimulation::Impl : public TickHooks {
   std::vector<std::pair<const btCollisionObject*, const btCollisionObject*>> passing_;
   std::vector<NearBody> sweeping_;  // kinematic bodies and links on their way in this tick
   bool thawed_in_tick_ = false;
-  bool air_before_ = false;                          // was there air in the last tick?
-  std::unordered_set<const btRigidBody*> jointed_;   // of Bullet's world, at the tick's start
-  std::vector<std::shared_ptr<PieceBody>> orphans_;  // joints still name them
+  bool air_before_ = false;                         // was there air in the last tick?
+  std::unordered_set<const btRigidBody*> jointed_;  // of Bullet's world, at the tick's start
+  struct Orphan {
+    std::size_t object;
+    std::shared_ptr<PieceBody> body;
+  };
+  std::vector<Orphan> orphans_;  // joints still name them
   struct Push {
     std::vector<std::int32_t> points;
     Impulse impulse;  // about their centre of mass
@@ -74,7 +85,8 @@ class CoSimulation::Impl : public TickHooks {
   std::vector<PointLoad> loads_;  // of joints, for the next tick
   std::size_t next_piece_ = 0;
   double time_ = 0.0;
-  double tick_ = 0.0;  // s, of the present tick
+  double tick_ = 0.0;     // s, of the present tick
+  bool in_tick_ = false;  // between the first hook and the last
   bool roles_stale_ = true;
   bool stepped_lattice_ = false;
   bool stepped_late_ = false;  // what the solver sent into a touch
@@ -125,6 +137,9 @@ class CoSimulation::Impl : public TickHooks {
   void make_stiffest_implicit(double dt);
   double substeps_wanted_by(std::size_t object, double dt) const;
   [[noreturn]] void refuse_step(double substeps) const;
+  std::vector<Vec3> velocities_of(const std::vector<Piece*>& pieces) const;
+  void follow_parabola(const std::vector<Piece*>& pieces, const std::vector<Vec3>& before,
+                       double substep);
   void note(const StepReport& report);
   bool switching() const { return settings_.representation == Representation::kSwitching; }
   void consider_pair(Piece& piece, const btCollisionObject& other, double dt);
@@ -150,13 +165,15 @@ class CoSimulation::Impl : public TickHooks {
   void start(Piece& piece);
   void take_changes_of_game(Piece& piece, double dt);
   bool jointed(const Piece& piece) const;
+  void wake_what_hangs_on(const Piece& piece);
   std::vector<std::int32_t> points_at_joints(const Piece& piece) const;
   std::optional<std::size_t> heir_among(const Piece& piece,
                                         const std::vector<std::vector<std::int32_t>>& groups);
   std::size_t group_at(const std::vector<std::vector<std::int32_t>>& groups,
                        const Vec3& place) const;
   void disable(btTypedConstraint& joint, std::size_t object);
-  void keep_for_joints(std::shared_ptr<PieceBody> body);
+  void keep_for_joints(std::size_t object, std::shared_ptr<PieceBody> body);
+  void require_removable(std::size_t object) const;
   void judge_impulse(Piece& piece, double dt, double share, double weight);
   Calmness look_at(const Piece& piece) const;
   Numbers numbers_of(const Piece& piece, const Calmness& seen) const;

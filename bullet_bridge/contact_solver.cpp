@@ -60,9 +60,13 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTra
   }
   const std::vector<SupportContact> contacts =
       gather_support_contacts(*world.getDispatcher(), shadows_);
-  supports_ = group_support_contacts(contacts, shadows_);
+  supports_ =
+      group_support_contacts(contacts, shadows_, touches_beyond(*world.getDispatcher(), shadows_));
   supported_.assign(static_cast<std::size_t>(shadows_.size()), false);
-  for (const SupportContact& c : contacts) supported_[c.a] = supported_[c.b] = true;
+  for (const SupportGroup& group : supports_) {
+    if (!group.stands) continue;  // on lattices alone, if anything
+    for (const SupportContact& c : group.contacts) supported_[c.a] = supported_[c.b] = true;
+  }
   if (gravity_ == Gravity::kToCome) return;
   for (int i = 0; i < shadows_.size(); ++i) {
     const btRigidBody* body = shadows_[i].body;
@@ -80,6 +84,35 @@ void ContactSolver::take_over(ContactSolver&& other) {
     } else {
       known->add_pairs(std::move(theirs));
     }
+  }
+}
+
+void ContactSolver::keep(std::size_t piece, std::span<const std::int32_t> points) {
+  std::vector<Obstacle> kept;
+  for (const Obstacle& obstacle : obstacles_) {
+    Obstacle memory = obstacle.memory_of(points);
+    if (memory.remembers()) kept.push_back(std::move(memory));
+  }
+  if (!kept.empty()) kept_[piece] = std::move(kept);
+}
+
+std::vector<Obstacle> ContactSolver::give_up(std::size_t piece) {
+  const auto known = kept_.find(piece);
+  if (known == kept_.end()) return {};
+  std::vector<Obstacle> kept = std::move(known->second);
+  kept_.erase(known);
+  return kept;
+}
+
+void ContactSolver::take_up(std::vector<Obstacle> kept) {
+  for (Obstacle& obstacle : kept) due_.push_back(std::move(obstacle));
+}
+
+void ContactSolver::go_on_with_due(const Lattice& lattice) {
+  for (const Obstacle& memory : std::exchange(due_, {})) {
+    const auto same = [&](const Obstacle& now) { return &now.object() == &memory.object(); };
+    const auto now = std::find_if(obstacles_.begin(), obstacles_.end(), same);
+    if (now != obstacles_.end()) now->take_up(memory, lattice, shadows_[now->shadow()]);
   }
 }
 
@@ -110,6 +143,7 @@ void ContactSolver::press(Lattice& lattice, const ContactCluster& cluster, doubl
 }
 
 void ContactSolver::list_pairs(const Lattice& lattice, double dt) {
+  go_on_with_due(lattice);
   double fastest = 0.0;
   for (std::int32_t p : lattice.dynamic_points) {
     fastest = std::max(fastest, lattice.motion[p].velocity.squaredNorm());

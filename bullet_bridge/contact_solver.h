@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -50,10 +51,20 @@ class ContactSolver : public SubstepCoupling {
     shadows_ = {};
   }
 
+  // The body has left the world.
+  void forget(const btCollisionObject& body) { shadows_.forget(body); }
+
   // The body is no longer one: its pose and flags are not this solver's business any more.
   void let_go(const btCollisionObject& object);
 
-  // From the next tick on this goes on with the contacts of the other too, which are of other points.
+  // A piece turns rigid: keeps what its contacts remember. It turns into a lattice again: gives
+  // that to the solver that goes on with it, from its next tick on. Or is gone.
+  void keep(std::size_t piece, std::span<const std::int32_t> points);
+  std::vector<Obstacle> give_up(std::size_t piece);
+  void take_up(std::vector<Obstacle> kept);
+
+  // From the next tick on this goes on with the contacts of the other too, which are of other
+  // points.
   void take_over(ContactSolver&& other);
 
   // Forces besides, for this tick. After begin_tick().
@@ -79,6 +90,7 @@ class ContactSolver : public SubstepCoupling {
 
  private:
   void list_pairs(const Lattice& lattice, double dt);
+  void go_on_with_due(const Lattice& lattice);
   void press(Lattice& lattice, const ContactCluster& cluster, double dt);
   void pass_on_carried_forces(const Lattice& lattice);
   void move_carried_points(Lattice& lattice) const;
@@ -86,10 +98,12 @@ class ContactSolver : public SubstepCoupling {
   ShadowSet shadows_;
   std::vector<SupportGroup> supports_;
   std::vector<Obstacle> obstacles_;
+  std::map<std::size_t, std::vector<Obstacle>> kept_;  // of rigid pieces, by their id
+  std::vector<Obstacle> due_;  // of what has just turned into a lattice again
   std::vector<PointLoad> loads_;
   std::vector<CarriedPiece> carried_;
   std::vector<int> carried_shadow_;
-  std::vector<bool> supported_;  // by shadow: has support contacts, so that Bullet adds its gravity
+  std::vector<bool> supported_;  // by shadow: stands on something, so that Bullet adds its gravity
   std::vector<ContactCluster> clusters_;
   const BoundaryTracker* boundary_ = nullptr;
   const Components* pieces_ = nullptr;

@@ -42,6 +42,12 @@ Vec3 velocity_after_hit(const Vec3& relative, const Vec3& normal, double frictio
 
 }  // namespace
 
+void Debris::forget(IdRange<PointId> points) {
+  std::erase_if(points_, [&](const Particle& particle) {
+    return particle.point >= points.begin && particle.point < points.end;
+  });
+}
+
 double Debris::step(btDiscreteDynamicsWorld& world, Lattice& lattice,
                     const std::unordered_set<const btCollisionObject*>& ignored, double dt,
                     double lifetime) {

@@ -24,6 +24,9 @@ class Debris {
   }
   std::size_t size() const { return points_.size(); }
 
+  // Lets those of an object go.
+  void forget(IdRange<PointId> points);
+
   // One tick for all: x += (v + v') dt / 2, v' = v + g dt, or to the first hit. Particles older
   // than `lifetime` (s) are let go; returns their mass, kg.
   double step(btDiscreteDynamicsWorld& world, Lattice& lattice,

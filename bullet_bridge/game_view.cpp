@@ -6,6 +6,7 @@
 
 #include "bullet_bridge/co_simulation_impl.h"
 #include "bullet_bridge/conversions.h"
+#include "bullet_bridge/waking.h"
 
 // What a game sees of the pieces in its world, and what it does to them: bodies that follow the
 // lattices, forces and teleports, joints and who inherits them.
@@ -56,7 +57,20 @@ void CoSimulation::Impl::gather_loads(double dt) {
 
 void CoSimulation::Impl::show_velocities(double dt) {
   for (Piece* piece : flexible_pieces()) {
-    if (jointed(*piece)) piece->seen->show_velocity(lattice_, piece->points, dt);
+    if (!jointed(*piece)) continue;
+    piece->seen->show_velocity(lattice_, piece->points, dt);
+    wake_what_hangs_on(*piece);
+  }
+}
+
+// A joint that is new: Bullet has put its bodies on islands before this piece was one that it solves
+// (show_lattices()).
+void CoSimulation::Impl::wake_what_hangs_on(const Piece& piece) {
+  for (btTypedConstraint* joint : joints_of(world_, piece.body())) {
+    if (!joint->isEnabled()) continue;
+    for (btRigidBody* body : {&joint->getRigidBodyA(), &joint->getRigidBodyB()}) {
+      if (!body->isStaticOrKinematicObject()) wake(world_, *body);
+    }
   }
 }
 
@@ -159,12 +173,12 @@ void CoSimulation::Impl::disable(btTypedConstraint& joint, std::size_t object) {
 }
 
 // Joints go on naming a body of which nothing is left but debris: it has to outlive them.
-void CoSimulation::Impl::keep_for_joints(std::shared_ptr<PieceBody> body) {
+void CoSimulation::Impl::keep_for_joints(std::size_t object, std::shared_ptr<PieceBody> body) {
   if (joints_of(world_, *body).empty()) return;
   body->leave();
   body->setCollisionShape(nullptr);
   body->setIslandTag(-1);
-  orphans_.push_back(std::move(body));
+  orphans_.push_back({object, std::move(body)});
 }
 
 void CoSimulation::Impl::apply_impulse(std::size_t object, const Vec3& impulse, const Vec3& at) {

@@ -46,6 +46,10 @@ void JointLoads::begin(btDiscreteDynamicsWorld& world, const PieceIndex& index) 
 }
 
 void JointLoads::end() {
+  for (const Entry& entry : entries_) {  // what woke in the tick has that of when it fell asleep
+    if (is_solved(entry.a)) entry.a->joint_load = 0.0;
+    if (is_solved(entry.b)) entry.b->joint_load = 0.0;
+  }
   for (Entry& entry : entries_) {
     btTypedConstraint& joint = *entry.joint;
     if (!joint.getJointFeedback()) continue;

@@ -64,15 +64,17 @@ void CoSimulation::Impl::catch_up_with_deflected(double dt) {
   if (flexible_pieces().size() > others.size()) step_late(others, dt);
 }
 
-// The others have gone through the tick already.
+// The others have gone through the tick already: they stand still, and so do their contacts.
 void CoSimulation::Impl::step_late(const std::vector<Piece*>& others, double dt) {
   for (const Piece* piece : others) set_role(*piece, PointRole::kIdle);
   std::vector<Piece*> late;
   for (Piece* piece : flexible_pieces()) {
     if (std::find(others.begin(), others.end(), piece) == others.end()) late.push_back(piece);
   }
+  TimeOperator::LatticeContacts theirs = time_operator_.put_contacts_aside();
   step(late, late_contacts_, ContactSolver::Gravity::kGiven, dt);
   for (const Piece* piece : others) set_role(*piece, PointRole::kDynamic);
+  time_operator_.take_contacts_back(std::move(theirs));
   rebuild_active(lattice_);
   time_operator_.roles_changed();
   stepped_late_ = true;

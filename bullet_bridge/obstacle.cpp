@@ -42,10 +42,17 @@ constexpr double kPutMargin = 0.01;
 // wrong by as much as a tenth of a millimetre of depth on a face of 10 cm.
 constexpr double kDepthTolerance = 1e-3;
 
-// At rest a contact bears its whole elastic force. One that bears less than this share of it, and
-// is deeper than what comes out in a tick of 1/60 s, m, is on its way out.
+// At rest a contact bears its whole elastic force. One that bears less than this share of it, is
+// deeper than what comes out in a tick of 1/60 s, m, and does come out, at a tenth at least of the
+// speed at which it may, is on its way out. What its books keep from pressing lies still, for ever.
 constexpr double kBearingShare = 0.5;
+constexpr double kComingShare = 0.1;
 constexpr double kLeastYielding = kYieldSpeed / 60.0;
+
+// A piece that was rigid meanwhile still lies where it lay if it is no higher above the surface, m
+// (Bullet's rest is within 1 mm; what is bent does not lie on all of its points), and has not slid
+// by more.
+constexpr double kStillLies = 0.003;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
@@ -56,6 +63,13 @@ PenaltyContact law_between(const LatticeObject& object, const btCollisionObject&
   law.restitution = attributes.restitution * body.getRestitution();
   law.friction = attributes.friction * body.getFriction();
   return law;
+}
+
+// What counts as deeper than it is comes down to the surface, if it stands off it.
+void come_down(Vec3& shift, double depth, double dt) {
+  const double reach = shift.norm();
+  if (reach <= depth) return;
+  shift *= 1.0 - std::min(kEaseSpeed * dt, reach - depth) / reach;
 }
 
 double thickness(const ContactPart& part) {  // m
@@ -106,6 +120,10 @@ const P* with_part(std::span<const P> pairs, std::int64_t part) {
 template <class P>
 bool is_held(const P* pair) {
   return pair && pair->track.inside && pair->holds;
+}
+
+double depth_of(const PointTrack& track) {  // m, when it was followed last; where inside
+  return track.level - track.normal.dot(track.last);
 }
 
 int revision_of(const btCollisionShape& shape) {
@@ -214,9 +232,16 @@ void Obstacle::remember(Obstacle&& last_tick) {
   points_ = std::move(last_tick.points_);
   faces_ = std::move(last_tick.faces_);
   if (at_rest_ == last_tick.at_rest_) return;
-  for (PointPair& pair : points_) change_frame(pair.track);
+  const auto turned_shift = [&](const Vec3& shift) -> Vec3 {
+    return at_rest_ ? Vec3(rotation_ * shift) : Vec3(rotation_.transpose() * shift);
+  };
+  for (PointPair& pair : points_) {
+    change_frame(pair.track);
+    pair.shift = turned_shift(pair.shift);
+  }
   for (FacePair& pair : faces_) {
     change_frame(pair.track);
+    pair.shift = turned_shift(pair.shift);
     for (int i = 0; i < 3; ++i) {
       pair.last.col(i) = at_rest_ ? Vec3(position_ + rotation_ * pair.last.col(i))
                                   : Vec3(rotation_.transpose() * (pair.last.col(i) - position_));
@@ -234,6 +259,53 @@ void Obstacle::add_pairs(Obstacle&& others) {
   };
   join(points_, others.points_);
   join(faces_, others.faces_);
+}
+
+Obstacle Obstacle::memory_of(std::span<const std::int32_t> points) const {
+  Obstacle memory = *this;
+  memory.parts_.clear();
+  // What is deeper than contacts let in has come there by another way, as a face that lies beside a
+  // box's edge is held by its side.
+  const auto bears = [&](const auto& pair, std::int32_t point) {
+    return is_held(&pair) && depth_of(pair.track) <= pair.law.soft_depth &&
+           std::binary_search(points.begin(), points.end(), point);
+  };
+  std::erase_if(memory.points_, [&](const PointPair& pair) { return !bears(pair, pair.of); });
+  std::erase_if(memory.faces_, [&](const FacePair& pair) { return !bears(pair, pair.corners[0]); });
+  return memory;
+}
+
+void Obstacle::take_up(const Obstacle& memory, const Lattice& lattice, const ShadowBody& body) {
+  if (shape_ != memory.shape_ || shape_revision_ != memory.shape_revision_) return;
+  if (at_rest_ != memory.at_rest_) return;
+  sharers_ = std::max(sharers_, memory.sharers_);
+  for (PointPair pair : memory.points_) {
+    lie_again(pair, to_frame(body, lattice.motion[pair.of].position), points_);
+  }
+  for (FacePair pair : memory.faces_) {
+    const Mat3 corners = corners_in_frame(lattice, body, pair.corners);
+    lie_again(pair, corners * pair.pressed.weights, faces_);
+  }
+}
+
+// `real`: where the place is that counted as being at track.last.
+template <class P>
+void Obstacle::lie_again(P& pair, const Vec3& real, std::vector<P>& pairs) const {
+  PointTrack& track = pair.track;
+  const Vec3 moved = track.last - real;
+  const double along = std::min(0.0, moved.dot(track.normal));
+  const bool slid = (moved - moved.dot(track.normal) * track.normal).norm() > kStillLies;
+  if (slid || track.normal.dot(real) - track.level > kStillLies) return;
+  pair.shift = along * track.normal;
+  track.last = real + pair.shift;
+  // Who put the piece on the surface has lifted its load: what the contact had taken in is spent.
+  pair.books = {.mass = pair.books.mass};
+  pair.friction.force.setZero();
+  pair.yields = false;
+  const auto after =
+      std::upper_bound(pairs.begin(), pairs.end(), pair.of,
+                       [](std::int32_t of, const P& other) { return of < other.of; });
+  pairs.insert(after, pair);
 }
 
 // A body that stops is met in the world from now on, one that starts to move in its own frame.
@@ -398,10 +470,11 @@ void Obstacle::mark_yielding(std::vector<std::uint8_t>& points) const {
 void Obstacle::press_point(Lattice& lattice, const LatticeSurface& surface, ShadowBody& body,
                            PointPair& pair, double dt) {
   const ContactPart& part = parts_[pair.listed];
-  const Vec3 now = to_frame(body, lattice.motion[pair.of].position);
+  const Vec3 now = to_frame(body, lattice.motion[pair.of].position) + pair.shift;
   if (stays_outside(part, now, pair.track)) return;
   const Penetration contact = follow(part, now, pair.track);
   if (contact.depth <= 0.0) return pair.let_go();
+  come_down(pair.shift, contact.depth, dt);
   const bool new_here = !pair.holds && !surface.is_of_sheet(pair.of);
   if (new_here &&
       is_behind(contact.normal, direction_to_frame(body, surface.outwards_at(lattice, pair.of)))) {
@@ -413,7 +486,7 @@ void Obstacle::press_point(Lattice& lattice, const LatticeSurface& surface, Shad
 // Presses with the depth beyond that of its deepest corner, which presses as a point: the two join
 // without a jump where the deepest place comes to a corner.
 void Obstacle::press_face(Lattice& lattice, ShadowBody& body, FacePair& pair, double dt) {
-  const Mat3 corners = corners_in_frame(lattice, body, pair.corners);
+  const Mat3 corners = corners_in_frame(lattice, body, pair.corners).colwise() + pair.shift;
   if ((corners - pair.last).colwise().squaredNorm().maxCoeff() < pair.clear * pair.clear) return;
   const ContactPart& part = parts_[pair.listed];
   const Mat3 before = std::exchange(pair.last, corners);
@@ -425,6 +498,7 @@ void Obstacle::press_face(Lattice& lattice, ShadowBody& body, FacePair& pair, do
   Penetration contact = follow(part, corners * deepest.weights, pair.track);
   pair.clear = clearance(part, deepest, pair.track);
   if (contact.depth <= 0.0) return pair.let_go();
+  come_down(pair.shift, contact.depth, dt);
   const bool new_here = !pair.holds && !pair.sheet;
   if (new_here && is_behind(contact.normal, outwards)) return;
   if (!pair.holds && is_within_body(part, contact.normal)) return;
@@ -507,6 +581,7 @@ void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const
                     const Penetration& contact, double dt) {
   const bool counted = pair.books.open;  // among the sharers
   settle(lattice, body, pair, dt);
+  pair.yields = false;
   const double depth = eased(contact.depth, pair.offset, dt);
   if (depth <= 0.0 && pair.offset == 0.0) return;
   const Vec3 normal = at_rest_ ? contact.normal : Vec3(body.rotation * contact.normal);
@@ -519,7 +594,9 @@ void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const
   const double press = bear(lattice, body, pair, law, depth, dt);
   if (body.movable()) ++pushed_;
   const double elastic = law.elastic_force(pair.books.mass, depth);
-  pair.yields = depth > kLeastYielding && press < kBearingShare * elastic;
+  const double may_come = std::min(depth / kYieldTime, kYieldSpeed);
+  pair.yields = depth > kLeastYielding && press < kBearingShare * elastic &&
+                -pair.books.closing_speed > kComingShare * may_come;
   if (press <= 0.0) return;
   const Vec3 slip = slip_at(lattice, body, place);
   const Vec3 force = press * normal + pair.friction.pull(law, press, pair.books.mass, normal,
@@ -532,6 +609,7 @@ void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const
 template <class Place>
 void Obstacle::Pair<Place>::let_go() {
   offset = 0.0;
+  shift.setZero();
   books = {};
   friction = {};
   holds = yields = false;

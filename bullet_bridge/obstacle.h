@@ -74,6 +74,16 @@ class Obstacle {
   // Takes over the pairs of other points and faces with the same body.
   void add_pairs(Obstacle&& others);
 
+  // The contacts that press these points (ascending), and faces of theirs, alone: for as long as
+  // their piece is rigid.
+  Obstacle memory_of(std::span<const std::int32_t> points) const;
+  bool remembers() const { return !points_.empty() || !faces_.empty(); }
+
+  // Takes them up again as far as the piece still lies there. A rigid piece lies on the surface,
+  // where Bullet puts it, a lattice as deep as its contacts bear the load: they take its points for
+  // as deep as they were, so that it does not fall by that much. Before list().
+  void take_up(const Obstacle& memory, const Lattice& lattice, const ShadowBody& body);
+
   // Lists the pairs that may touch until the next listing, for substeps of dt.
   void list(const Lattice& lattice, const LatticeSurface& surface, const ShadowBody& body,
             const ListingReach& reach, double dt);
@@ -110,10 +120,11 @@ class Obstacle {
     std::int64_t part;   // its id
     std::size_t listed;  // where the part is in parts_
     PointTrack track;
-    double offset;       // m of penetration that was there when the pair was first seen
-    Place pressed;       // in the last substep, if its books are open
-    Vec3 normal;         // along which, world
-    PenaltyContact law;  // until the next listing
+    double offset;              // m of penetration that was there when the pair was first seen
+    Vec3 shift = Vec3::Zero();  // m, in the obstacle's frame: the place counts as being there
+    Place pressed;              // in the last substep, if its books are open
+    Vec3 normal;                // along which, world
+    PenaltyContact law;         // until the next listing
     PassiveContact books;
     FrictionSpring friction;
     bool holds = false;   // it has pressed since it came in
@@ -134,6 +145,8 @@ class Obstacle {
                         const std::array<std::int32_t, 3>& corners) const;
   Vec3 direction_to_frame(const ShadowBody& body, const Vec3& direction) const;
   void change_frame(PointTrack& track) const;
+  template <class P>
+  void lie_again(P& pair, const Vec3& real, std::vector<P>& pairs) const;
   template <class P>
   P known_or_new(const P* known, std::int32_t of, std::size_t listed, const Vec3& local) const;
   void list_points(const Lattice& lattice, const ShadowBody& body, const ListingReach& reach,

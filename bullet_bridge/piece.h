@@ -24,6 +24,7 @@ struct Piece {
   std::unique_ptr<RigidProxy> proxy;  // null while flexible
   std::unique_ptr<LatticeBody> seen;  // null while rigid
   double stored_J = 0.0;              // elastic energy, while rigid
+  bool counted = false;               // its proxy's impulse is of this tick already
   double joint_load = 0.0;            // N, of the game's constraints in the last tick
   double carried_load = 0.0;          // N, of contacts and joints when it became rigid
   double sustained_load = 0.0;        // N, of them since then, averaged over time

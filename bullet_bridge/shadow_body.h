@@ -17,10 +17,11 @@ inline namespace LIMBER_BULLET_PRECISION {
 // body held still while a lattice hits it gains energy out of nothing (up to twentyfold, measured),
 // although momentum stays exact; its shadow moves with every substep.
 //
-// Bullet adds gravity when it solves, so that the shadow of a supported body goes without; that of
-// an airborne one falls with the lattice and is written back without the tick's gravity. A shadow
-// turns as a free body does, whatever Bullet's flags for gyroscopic torque are, which Bullet would
-// add once more: they are off from write_velocity() to correct_pose().
+// Bullet adds gravity when it solves, so that the shadow of a body that stands on something goes
+// without; that of an airborne one, or of one that lattices alone bear, falls with the lattice and
+// is written back without the tick's gravity. A shadow turns as a free body does, whatever Bullet's
+// flags for gyroscopic torque are, which Bullet would add once more: they are off from
+// write_velocity() to correct_pose().
 struct ShadowBody : RigidBody {
   btRigidBody* body = nullptr;  // null for things that no impulse moves: links, bare objects
   int flags = 0;                // the body's own

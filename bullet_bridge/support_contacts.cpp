@@ -194,8 +194,21 @@ std::vector<SupportContact> gather_support_contacts(btDispatcher& dispatcher, Sh
   return contacts;
 }
 
+std::vector<bool> touches_beyond(btDispatcher& dispatcher, const ShadowSet& shadows) {
+  std::vector<bool> beyond(static_cast<std::size_t>(shadows.size()), false);
+  for (int m = 0; m < dispatcher.getNumManifolds(); ++m) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(m);
+    if (!carries_load(manifold)) continue;
+    const int a = shadows.find(*manifold.getBody0()), b = shadows.find(*manifold.getBody1());
+    if (a >= 0 && b < 0) beyond[a] = true;
+    if (b >= 0 && a < 0) beyond[b] = true;
+  }
+  return beyond;
+}
+
 std::vector<SupportGroup> group_support_contacts(const std::vector<SupportContact>& contacts,
-                                                 const ShadowSet& shadows) {
+                                                 const ShadowSet& shadows,
+                                                 const std::vector<bool>& beyond) {
   std::vector<int> parent(static_cast<std::size_t>(shadows.size()));
   std::iota(parent.begin(), parent.end(), 0);
   for (const SupportContact& c : contacts) {
@@ -214,10 +227,13 @@ std::vector<SupportGroup> group_support_contacts(const std::vector<SupportContac
     }
     group_of[i] = group_of[root];
     groups[group_of[i]].bodies.push_back(i);
+    groups[group_of[i]].stands = groups[group_of[i]].stands || beyond[i];
   }
   for (const SupportContact& c : contacts) {
     const int body = shadows[c.a].movable() ? c.a : c.b;
-    groups[group_of[body]].contacts.push_back(c);
+    SupportGroup& group = groups[group_of[body]];
+    group.contacts.push_back(c);
+    group.stands = group.stands || !shadows[c.a].movable() || !shadows[c.b].movable();
   }
   return groups;
 }

@@ -17,6 +17,8 @@ class ShadowSet {
   void next_tick();
   // The shadow of an object, made on first use.
   int shadow_of(const btCollisionObject& object);
+  // Another object may get its address.
+  void forget(const btCollisionObject& object) { index_.erase(&object); }
   // -1 when it has none.
   int find(const btCollisionObject& object) const;
   ShadowBody& operator[](int i) { return shadows_[static_cast<std::size_t>(i)]; }
@@ -53,16 +55,21 @@ inline constexpr int kSupportRings = 3;
 // shadow for each body on the way. Call it when the first ring is in the set.
 std::vector<SupportContact> gather_support_contacts(btDispatcher& dispatcher, ShadowSet& shadows);
 
+// Which shadows touch, in Bullet's manifolds, what has no shadow: the last ring does.
+std::vector<bool> touches_beyond(btDispatcher& dispatcher, const ShadowSet& shadows);
+
 // Contacts that hang together through movable bodies: solved as one, and only when the lattice
 // pushed one of their bodies.
 struct SupportGroup {
   std::vector<SupportContact> contacts;
   std::vector<int> bodies;  // movable shadows
   bool loaded = false;
+  bool stands = false;  // on something immovable, or on bodies without a shadow
 };
 
 std::vector<SupportGroup> group_support_contacts(const std::vector<SupportContact>& contacts,
-                                                 const ShadowSet& shadows);
+                                                 const ShadowSet& shadows,
+                                                 const std::vector<bool>& beyond);
 
 // One substep of non-penetration with Coulomb friction: sequential impulses, started from those of
 // the last substep. A gap may close within dt but not beyond.

@@ -92,8 +92,8 @@ double turning_speed(const btCollisionObject& object) {
   return largest_speed({.angular_velocity = motion_of(object).angular_velocity}, object);
 }
 
-double fall_within(const btCollisionObject& object, double dt) {
-  if (!is_movable(object) || !object.isActive()) return 0.0;
+double fall_within(const btCollisionObject& object, double dt, TickGravity gravity) {
+  if (gravity == TickGravity::kGiven || !is_movable(object) || !object.isActive()) return 0.0;
   return btRigidBody::upcast(&object)->getGravity().length() * dt;
 }
 
@@ -109,6 +109,17 @@ Closest closest_to_plane(const Leaf& convex, const Leaf& plane_leaf) {
   return {gap, normal, lowest - gap * normal};
 }
 
+// m, by which a box reaches farther along a unit direction than Bullet's query has it, which rounds
+// its edges by the margin m: the corner of a box of half extents h is at sum h_i |d_i|, that of the
+// rounded one at sum (h_i - m) |d_i| + m.
+double sharpness(const Leaf& leaf, const btVector3& direction) {
+  if (leaf.shape->getShapeType() != BOX_SHAPE_PROXYTYPE) return 0.0;
+  const btVector3 d = (leaf.pose.getBasis().transpose() * direction).absolute();
+  return leaf.shape->getMargin() * std::max(0.0, double{d.x() + d.y() + d.z()} - 1.0);
+}
+
+// The gap is that between the planes across the normal: no farther than the shapes are apart, and a
+// bound for whatever moves.
 std::optional<Closest> closest_convex(const Leaf& a, const Leaf& b) {
   btVoronoiSimplexSolver simplex;
   btGjkEpaPenetrationDepthSolver depth;
@@ -120,8 +131,9 @@ std::optional<Closest> closest_convex(const Leaf& a, const Leaf& b) {
   btPointCollector result;
   detector.getClosestPoints(input, result, nullptr);
   if (!result.m_hasResult) return std::nullopt;
-  return Closest{result.m_distance, from_bullet(result.m_normalOnBInWorld),
-                 from_bullet(result.m_pointInWorld)};
+  const btVector3& normal = result.m_normalOnBInWorld;
+  const double gap = result.m_distance - sharpness(a, normal) - sharpness(b, normal);
+  return Closest{gap, from_bullet(normal), from_bullet(result.m_pointInWorld)};
 }
 
 std::optional<Closest> closest(const Leaf& mine, const Leaf& other) {
@@ -129,26 +141,27 @@ std::optional<Closest> closest(const Leaf& mine, const Leaf& other) {
   return closest_convex(mine, other);
 }
 
-Path path_of(const btCollisionObject& object) {
-  Path path{.start = object.getWorldTransform(), .reach = reach_of(object)};
+Path path_of(const btCollisionObject& object, TickGravity gravity) {
+  Path path{.start = object.getWorldTransform(), .reach = reach_of(object), .moments = {}};
   if (object.isStaticObject()) return path;
   const auto [velocity, angular_velocity] = motion_of(object);
   path.velocity = velocity;
   path.angular_velocity = angular_velocity;
   const btRigidBody* body = btRigidBody::upcast(&object);
   if (!body) return path;
-  if (body->isActive() && is_movable(object)) path.gravity = from_bullet(body->getGravity());
+  const bool falls = gravity == TickGravity::kToCome && body->isActive() && is_movable(object);
+  if (falls) path.gravity = from_bullet(body->getGravity());
   if (dynamic_cast<const PieceBody*>(body)) {
     path.moments = from_bullet(body->getInvInertiaDiagLocal()).cwiseInverse();
   }
   return path;
 }
 
-// m, that Bullet's query takes off the corners of a shape: it rounds them by the margin, those of
-// boxes, and those of proxies, which were made smaller by it. A corner at (m, m, m) from the centre
-// of a ball of radius m sticks out by (sqrt(3) - 1) m.
+// m, that Bullet's query takes off the corners of a proxy's hull, which was made smaller by the
+// margin that rounds it. A corner at (m, m, m) from the centre of a ball of radius m sticks out by
+// (sqrt(3) - 1) m. Boxes are sharp here: see sharpness().
 double blunting(const btCollisionShape& shape, bool proxy) {
-  if (!proxy && shape.getShapeType() != BOX_SHAPE_PROXYTYPE) return 0.0;
+  if (!proxy || shape.getShapeType() == BOX_SHAPE_PROXYTYPE) return 0.0;
   return (std::sqrt(3.0) - 1.0) * shape.getMargin();
 }
 
@@ -161,7 +174,7 @@ struct Pair {
 
   // m, a gap that counts as a touch.
   double slop() const {
-    return kSlop + blunting(*mine.shape, true) +
+    return kSlop + blunting(*mine.shape, body.moments.has_value()) +
            blunting(*other.shape, partner.moments.has_value());
   }
 
@@ -285,18 +298,18 @@ std::optional<PredictedTouch> hardest_touch(const Leaf& mine, const Path& body, 
 }  // namespace
 
 double largest_closing_speed(const btRigidBody& body, double reach, const btCollisionObject& other,
-                             double dt) {
+                             double dt, TickGravity gravity) {
   const BodyMotion own = motion_of(body), partner = motion_of(other);
   return (own.velocity - partner.velocity).norm() + own.angular_velocity.norm() * reach +
-         fall_within(body, dt) + turning_speed(other) + fall_within(other, dt);
+         fall_within(body, dt, gravity) + turning_speed(other) + fall_within(other, dt, gravity);
 }
 
 std::optional<PredictedTouch> predict_touch(const btRigidBody& body, const btCollisionObject& other,
-                                            double dt) {
+                                            double dt, TickGravity gravity) {
   std::vector<Leaf> mine, others;
   collect_leaves(*body.getCollisionShape(), btTransform::getIdentity(), mine);
   collect_leaves(*other.getCollisionShape(), btTransform::getIdentity(), others);
-  const Path path = path_of(body), partner = path_of(other);
+  const Path path = path_of(body, gravity), partner = path_of(other, gravity);
   std::optional<PredictedTouch> hardest;
   for (const Leaf& m : mine) {
     for (const Leaf& o : others) {

@@ -125,6 +125,12 @@ void CellContacts::refresh(const Lattice& lattice, bool topology_changed) {
   is_strained_.resize(points_.rows(), 0);
 }
 
+void CellContacts::take_over(CellContacts&& other) {
+  held_.insert(held_.end(), other.held_.begin(), other.held_.end());
+  std::stable_sort(held_.begin(), held_.end(),
+                   [](const Held& l, const Held& r) { return l.cell < r.cell; });
+}
+
 void CellContacts::add_forces(Lattice& lattice, double dt) {
   if (until_look_-- <= 0) look(lattice);
   for (Held& held : held_) {

@@ -26,6 +26,9 @@ class CellContacts {
   // `topology_changed`: something broke, or other points are dynamic, or objects were added.
   void refresh(const Lattice& lattice, bool topology_changed);
 
+  // Goes on with the contacts of the other too, which are of other cells.
+  void take_over(CellContacts&& other);
+
   // lattice.force has to hold all other forces that are known.
   void add_forces(Lattice& lattice, double dt);
 

@@ -139,6 +139,19 @@ void PointContacts::edges_broken(const Lattice& lattice, std::span<const std::in
   }
 }
 
+void PointContacts::take_over(PointContacts&& other) {
+  merge_fresh();
+  other.merge_fresh();
+  const auto join = [](Pairs& mine, const Pairs& theirs) {
+    const auto listed = static_cast<std::ptrdiff_t>(mine.size());
+    mine.insert(mine.end(), theirs.begin(), theirs.end());
+    std::inplace_merge(mine.begin(), mine.begin() + listed, mine.end(), ascending);
+  };
+  join(between_, other.between_);
+  join(within_, other.within_);
+  skin_ = std::max(skin_, other.skin_);
+}
+
 void PointContacts::merge_fresh() {
   if (fresh_.empty()) return;
   const auto listed = static_cast<std::ptrdiff_t>(within_.size());

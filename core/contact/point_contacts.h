@@ -33,6 +33,10 @@ class PointContacts {
   // near, of one piece, or joined. Where one did, refresh() has to follow.
   void edges_broken(const Lattice& lattice, std::span<const std::int32_t> edges);
 
+  // Goes on with the pairs of another too, which are of other points. refresh() with
+  // `topology_changed` has to follow.
+  void take_over(PointContacts&& other);
+
   // Adds the forces of all listed pairs to lattice.force, by what points do just now
   // (penalty_force(): it has two values at rest).
   void add_forces(Lattice& lattice) const;

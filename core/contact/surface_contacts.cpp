@@ -52,6 +52,14 @@ void SurfaceContacts::rebuild_surface(const Lattice& lattice, const Components& 
   refreshes_since_break_ = 0;
 }
 
+// What passed a face in the other's last substep is held as well.
+void SurfaceContacts::take_over(SurfaceContacts&& other, const Lattice& lattice) {
+  other.find_passages(lattice);
+  held_.insert(held_.end(), other.held_.begin(), other.held_.end());
+  std::stable_sort(held_.begin(), held_.end(),
+                   [](const Held& l, const Held& r) { return l.point < r.point; });
+}
+
 void SurfaceContacts::add_forces(Lattice& lattice, double dt) {
   near_.advance(dt);
   find_passages(lattice);

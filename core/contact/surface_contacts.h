@@ -42,6 +42,10 @@ class SurfaceContacts {
   // piece fell apart.
   void edges_broken() { broken_ = true; }
 
+  // Goes on with the held points of another too, which are others. refresh() with
+  // `topology_changed` has to follow.
+  void take_over(SurfaceContacts&& other, const Lattice& lattice);
+
   // Adds the forces on all held points and the corners that hold them to lattice.force. Once a
   // substep of dt, s.
   void add_forces(Lattice& lattice, double dt);

@@ -306,6 +306,18 @@ std::size_t add_object(Lattice& lattice, PhysicalModel model) {
   return lattice.objects.size() - 1;
 }
 
+void retire_object(Lattice& lattice, std::size_t index) {
+  LatticeObject& object = lattice.objects[index];
+  for (std::int32_t p = object.points.begin; p < object.points.end; ++p) {
+    lattice.role[p] = PointRole::kIdle;
+    lattice.motion[p].velocity.setZero();
+  }
+  PhysicalModel left;
+  left.name = std::move(object.authored.name);
+  left.object = object.authored.object;
+  object.authored = std::move(left);
+}
+
 // K <= K_springs + omega_c^2 + k / m (Weyl; a contact of points of one mass is omega_c^2 m / 2 on
 // both), C <= beta K_springs + c / m.
 double largest_step(const LatticeObject& object, double stiffness, double damping,

@@ -111,6 +111,11 @@ inline Vec3 velocity_after(const Lattice& lattice, std::int32_t p, double dt) {
 // Returns the index of the object. Call rebuild_active() afterwards.
 std::size_t add_object(Lattice& lattice, PhysicalModel model);
 
+// The object is simulated no more: nothing moves its points, and its authored model goes but for
+// the name and the attributes of the whole. Its indices stay, so that those of others do. Call
+// rebuild_active() afterwards.
+void retire_object(Lattice& lattice, std::size_t object);
+
 // What the springs of an object are about to bear. The bound on its frequencies is that of the
 // shape at rest. Strain turns springs: their stiffness counts in new directions, and from a strain
 // of kSmallStrain on the vibrations of an undamped lattice feed one another at the full step.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "core/dynamics/internal_damping.h"
 #include "core/model/diagnostic_list.h"
@@ -104,6 +105,17 @@ void TimeOperator::roles_changed() {
   slack_ = 0;
 }
 
+TimeOperator::LatticeContacts TimeOperator::put_contacts_aside() {
+  return std::exchange(contacts_, {});
+}
+
+void TimeOperator::take_contacts_back(LatticeContacts aside) {
+  aside.points.take_over(std::move(contacts_.points));
+  aside.cells.take_over(std::move(contacts_.cells));
+  aside.faces.take_over(std::move(contacts_.faces), lattice_);
+  contacts_ = std::move(aside);
+}
+
 const Components& TimeOperator::pieces() {
   if (pieces_stale_) pieces_.reset(lattice_);
   pieces_stale_ = false;
@@ -165,9 +177,9 @@ std::vector<double> TimeOperator::leads(double dt) const {
 }
 
 void TimeOperator::refresh_contacts() {
-  contacts_.refresh(lattice_, pieces(), contacts_stale_, carried_stale_);
-  surface_contacts_.refresh(lattice_, pieces(), contacts_stale_, carried_stale_);
-  cell_contacts_.refresh(lattice_, contacts_stale_);
+  contacts_.points.refresh(lattice_, pieces(), contacts_stale_, carried_stale_);
+  contacts_.faces.refresh(lattice_, pieces(), contacts_stale_, carried_stale_);
+  contacts_.cells.refresh(lattice_, contacts_stale_);
   contacts_stale_ = carried_stale_ = false;
 }
 
@@ -196,12 +208,12 @@ void TimeOperator::sum_forces(const Environment& environment, double time, doubl
   }
   // Contacts go by all the others.
   if (is_symplectic()) {
-    contacts_.bear(lattice_, dt);
+    contacts_.points.bear(lattice_, dt);
   } else {
-    contacts_.add_forces(lattice_);
+    contacts_.points.add_forces(lattice_);
   }
-  cell_contacts_.add_forces(lattice_, dt);
-  surface_contacts_.add_forces(lattice_, dt);
+  contacts_.cells.add_forces(lattice_, dt);
+  contacts_.faces.add_forces(lattice_, dt);
   supports_ = {};
   if (!environment.ground) return;
   ground_.add_forces(lattice_, *environment.ground, implicit_.explicit_points(lattice_), weight);
@@ -309,8 +321,8 @@ void TimeOperator::break_overstretched(StepReport& report) {
     BreakEvent& event = report.breaks[i];
     event.piece = pieces_.components().label[lattice_.springs[event.edge].a];
   }
-  contacts_.edges_broken(lattice_, broken_.broken_edges);
-  surface_contacts_.edges_broken();
+  contacts_.points.edges_broken(lattice_, broken_.broken_edges);
+  contacts_.faces.edges_broken();
   contacts_stale_ = contacts_stale_ || !splits.empty();
   faces_stale_ = true;
 }

@@ -123,6 +123,17 @@ class TimeOperator {
   // Whether to sample the load on the springs; it costs a tenth of the fast springs.
   void watch_load(bool wanted) { watches_load_ = wanted; }
 
+  // How lattices touch one another, and what their contacts remember. Put aside while those that
+  // touch stand still and others are integrated alone, and taken back afterwards together with the
+  // contacts of these; roles_changed() has to follow either.
+  struct LatticeContacts {
+    PointContacts points;
+    CellContacts cells;
+    SurfaceContacts faces;
+  };
+  LatticeContacts put_contacts_aside();
+  void take_contacts_back(LatticeContacts aside);
+
   // To be told after rebuild_active(), and after rebuild_carried() alone.
   void roles_changed();
   void carried_changed() { carried_stale_ = true; }
@@ -155,9 +166,7 @@ class TimeOperator {
   Lattice& lattice_;
   Integrator integrator_;
   double time_ = 0.0;
-  PointContacts contacts_;
-  CellContacts cell_contacts_;
-  SurfaceContacts surface_contacts_;
+  LatticeContacts contacts_;
   GroundContact ground_;
   std::vector<DragFace> faces_;  // that feel the air
   ComponentTracker pieces_;

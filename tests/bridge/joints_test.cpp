@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "tests/bridge/measure.h"
 #include "tests/bridge/models.h"
@@ -260,6 +262,135 @@ TEST(Joint, ThatLosesItsPartIsDisabledAndSaidSo) {
   EXPECT_NE(simulation.notes()[0].what.find("constraint"), std::string::npos);
 }
 
+// A flexible block hangs from a static body. A joint is solved by velocities: its ends may part by
+// a tick's fall.
+TEST_P(JointInAnyRepresentation, AnchorsToAStaticBody) {
+  World world;
+  btRigidBody& post = world.add_box(Vec3::Constant(0.05), 0.0, {0.0, 0.3, 0.0});
+  CoSimulation simulation(*world, settings_for(GetParam()));
+  simulation.add(make_block({.modulus = 2e6, .internal_damping = 100.0}, Vec3::Zero()));
+  btRigidBody& body = *simulation.pieces().at(0).body;
+  const btVector3 pivot = local_place(body, {0.05, 0.15, 0.0});  // it swings a little
+  BallJoint joint(world, body, post, pivot, local_place(post, {0.05, 0.15, 0.0}));
+  const double start = sums_of(simulation.model(0)).energy(kGravity);
+  for (int tick = 0; tick < 180; ++tick) {
+    world.step(kTick);
+    EXPECT_LT((world_place(body, joint->getPivotInA()) - Vec3(0.05, 0.15, 0.0)).norm(),
+              kGravity * kTick * kTick);
+    EXPECT_LT(sums_of(simulation.model(0)).energy(kGravity),
+              start + 0.02 * kMass * kGravity * 0.05);
+  }
+  ASSERT_FALSE(simulation.failure());
+  EXPECT_EQ(post.getWorldTransform().getOrigin().y(), btScalar(0.3));
+}
+
+// And from a kinematic one that rises. Bullet puts that where it will be at the tick's end before
+// it solves: what is joined to it runs ahead by a tick's way.
+TEST_P(JointInAnyRepresentation, AnchorsToAKinematicBody) {
+  constexpr double kSpeed = 0.5;  // m/s
+  World world;
+  btRigidBody& lift = world.add_box(Vec3::Constant(0.05), 0.0, {0.0, 0.3, 0.0});
+  lift.setCollisionFlags(lift.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+  lift.setActivationState(DISABLE_DEACTIVATION);
+  btDefaultMotionState state(lift.getWorldTransform());
+  lift.setMotionState(&state);
+  CoSimulation simulation(*world, settings_for(GetParam()));
+  simulation.add(
+      make_block({.modulus = 2e6, .internal_damping = 100.0}, Vec3::Zero(), {0.0, kSpeed, 0.0}));
+  btRigidBody& body = *simulation.pieces().at(0).body;
+  BallJoint joint(world, body, lift, local_place(body, kTop), local_place(lift, kTop));
+  for (int tick = 1; tick <= 180; ++tick) {
+    btTransform pose = btTransform::getIdentity();
+    pose.setOrigin(to_bullet(Vec3(0.0, 0.3 + kSpeed * tick * kTick, 0.0)));
+    state.setWorldTransform(pose);
+    world.step(kTick);
+    const Vec3 held = from_bullet(pose * joint->getPivotInB());
+    EXPECT_LT((world_place(body, joint->getPivotInA()) - held).norm(), kSpeed * kTick + 1e-3)
+        << tick;
+  }
+  ASSERT_FALSE(simulation.failure());
+  const RigidMotion motion = simulation.pieces().at(0).motion;
+  EXPECT_NEAR(motion.velocity.y(), kSpeed, 0.01);
+  lift.setMotionState(nullptr);
+}
+
+// A sleeping box that a flying block is tied to wakes and gets its share.
+TEST_P(JointInAnyRepresentation, AnchorsToASleepingBody) {
+  World world(0.0);
+  btRigidBody& box = world.add_box(Vec3::Constant(0.15), 5.0, {0.0, 0.5, 0.0});
+  world.run(3.0, kTick);
+  ASSERT_FALSE(box.isActive());
+  CoSimulation simulation(*world, settings_for(GetParam()));
+  simulation.add(
+      make_block({.modulus = 2e6, .internal_damping = 100.0}, Vec3::Zero(), {0.5, -0.2, 0.0}));
+  btRigidBody& body = *simulation.pieces().at(0).body;
+  const Vec3 there(0.0, 0.25, 0.0);
+  BallJoint joint(world, body, box, local_place(body, there), local_place(box, there));
+  Sums before = sums_of(simulation.model(0));
+  before += sums_of(box);
+  for (int tick = 0; tick < 120; ++tick) {
+    world.step(kTick);
+    const Vec3 apart =
+        world_place(body, joint->getPivotInA()) - world_place(box, joint->getPivotInB());
+    EXPECT_LT(apart.norm(), 3e-3) << tick;
+  }
+  ASSERT_FALSE(simulation.failure());
+  Sums after = sums_of(simulation.model(0));
+  after += sums_of(box);
+  EXPECT_TRUE(box.isActive());
+  EXPECT_GT(sums_of(box).momentum.norm(), 0.5);
+  EXPECT_LT((after.momentum - before.momentum).norm(), by_precision(1e-3, 1e-11));
+  EXPECT_LT(after.kinetic + after.elastic, 1.01 * before.kinetic);
+}
+
+// One that stands beside it is not kicked when a joint between the two wakes it.
+TEST_P(JointInAnyRepresentation, WakesABodyWithoutAKick) {
+  World world;
+  world.add_ground();
+  btRigidBody& box = world.add_box(Vec3::Constant(0.15), 5.0, {0.4, 0.15, 0.0});
+  btRigidBody& on_top = world.add_box(Vec3::Constant(0.1), 2.0, {0.4, 0.4, 0.0});
+  CoSimulation simulation(*world, settings_for(GetParam()));
+  simulation.add(make_block({.modulus = 2e6, .internal_damping = 100.0}, {0.0, 0.15, 0.0}));
+  world.run(5.0, kTick);
+  ASSERT_FALSE(box.isActive());
+  ASSERT_FALSE(on_top.isActive());
+  btRigidBody& body = *simulation.pieces().at(0).body;
+  const Vec3 between(0.2, 0.15, 0.0);
+  BallJoint joint(world, body, box, local_place(body, between), local_place(box, between));
+  body.activate();
+  double fastest = 0.0;
+  for (int tick = 0; tick < 60; ++tick) {
+    world.step(kTick);
+    for (const btRigidBody* b : {&box, &on_top}) {
+      fastest = std::max(fastest, static_cast<double>(b->getLinearVelocity().length()));
+    }
+  }
+  ASSERT_FALSE(simulation.failure());
+  EXPECT_LT(fastest, 0.01);  // without gravity for what wakes: 0.085 (waking.h)
+}
+
+// A joint is not solved while its bodies sleep. What it bore then counts once, not in every tick.
+TEST(JointLoad, OfASleepingPieceIsThatOfWhenItFellAsleep) {
+  for (bool own_feedback : {false, true}) {
+    SCOPED_TRACE(own_feedback);
+    World world;
+    CoSimulation simulation(*world);
+    simulation.add(make_block({.modulus = 1e6}, -kTop));
+    simulation.add(make_block({.modulus = 1e6}, {50.0, 0.0, 0.0}, {0.0, 30.0, 0.0}));  // awake
+    btRigidBody& body = *simulation.pieces().at(0).body;
+    BallJoint joint(world, body, local_place(body, Vec3::Zero()));
+    btJointFeedback feedback = {};
+    if (own_feedback) joint->setJointFeedback(&feedback);
+    world.run(5.0, kTick);
+    ASSERT_FALSE(body.isActive());
+    world.run(2.0, kTick);
+    body.activate();
+    world.run(0.2, kTick);
+    EXPECT_EQ(simulation.counters().to_flexible, 0u);
+    EXPECT_EQ(joint->getJointFeedback(), own_feedback ? &feedback : nullptr);
+  }
+}
+
 // A cell that breaks at a touch: nothing is left but debris.
 TEST(Joint, OnWhatTurnsToDebrisOutlivesIt) {
   World world;
@@ -269,12 +400,17 @@ TEST(Joint, OnWhatTurnsToDebrisOutlivesIt) {
     for (EdgeAttributes& edge : model.edges) edge.break_threshold = 1e-6;
     simulation.add(model);
     btRigidBody& body = *simulation.pieces().at(0).body;
-    BallJoint joint(world, body, local_place(body, Vec3::Zero()));
+    std::optional<BallJoint> joint(std::in_place, world, body, local_place(body, Vec3::Zero()));
     btRigidBody& slab = world.add_box({0.2, 0.05, 0.2}, 5.0, {0.0, 0.15, 0.0});
     slab.setLinearVelocity(btVector3(0, -5, 0));
     world.run(0.5, kTick);
     EXPECT_TRUE(simulation.pieces().empty());
-    EXPECT_FALSE(joint->isEnabled());
+    EXPECT_FALSE((*joint)->isEnabled());
+    // It names a body of which nothing is left, and has to go before the object.
+    ASSERT_EQ(simulation.constraints_on(0).size(), 1u);
+    EXPECT_THROW(simulation.remove(0), InputError);
+    joint.reset();
+    simulation.remove(0);
   }
   world.run(0.1, kTick);
 }

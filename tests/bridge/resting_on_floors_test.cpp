@@ -81,8 +81,9 @@ double depth_at_rest() {
 // floor by Bullet by 0.8 mm).
 constexpr double kTremble = 0.1;
 
-// m: a proxy rests on Bullet's contacts, which come to zero from either side.
-constexpr double kRoundedTouch = 1e-5;
+// m: a proxy rests on Bullet's contacts, which come to zero from either side. Of 60 drops, from 20
+// heights on each kind of floor, the highest comes to rest 17 um above it.
+constexpr double kRoundedTouch = 2e-5;
 
 void expect_at_rest(const Rest& rest) {
   const double depth = depth_at_rest();

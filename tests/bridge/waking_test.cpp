@@ -86,6 +86,35 @@ TEST(SleepingStack, OfFiveWokenGentlyMovesNoMoreThanWhenAGameWakesIt) {
   EXPECT_LT(most, 0.01);  // without gravity for the woken it would be 0.085
 }
 
+// A rigid piece that bears one and a half times its weight, asleep. It strains it by 0.6 %, 1 %
+// would make it flexible, and twice the impulse of a tick would look like a touch. A feather that
+// lands on the weight as a lattice wakes both.
+TEST(SleepingPiece, BearsNoMoreWhenItWakes) {
+  World world;
+  world.add_ground();
+  CoSimulation simulation(*world);
+  simulation.add(make_block({.modulus = 1e6}, {0.0, 0.15, 0.0}));
+  btRigidBody& weight = world.add_box({0.15, 0.1, 0.15}, 12.0, {0.0, 0.4, 0.0});
+  world.run(6.0, kTick);
+  const btRigidBody& body = *simulation.pieces().at(0).body;
+  ASSERT_FALSE(body.isActive());
+  ASSERT_FALSE(weight.isActive());
+  ASSERT_EQ(simulation.counters().to_flexible, 0u);
+  const Block feather{.cells = {2, 2, 2}, .spacing = 0.05, .mass = 0.005, .modulus = 1e4};
+  simulation.add(make_block(feather, {0.0, 0.5 + 0.05 + 0.03, 0.0}, {0.0, -1.0, 0.0}));
+  simulation.add(make_block({.modulus = 1e6}, {50.0, 100.0, 0.0}));  // another piece is awake
+  bool woken = false;
+  for (int tick = 0; tick < 30; ++tick) {
+    world.step(kTick);
+    woken = woken || body.isActive();
+  }
+  EXPECT_TRUE(woken);
+  const auto& switches = simulation.switches();
+  EXPECT_TRUE(std::none_of(switches.begin(), switches.end(), [](const SwitchRecord& r) {
+    return r.object == 0 && r.books.to_flexible;
+  }));
+}
+
 // A lattice that passes by wakes nobody.
 TEST(SleepingBox, SleepsOnWhileALatticePasses) {
   World world;

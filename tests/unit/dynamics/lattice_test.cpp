@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/dynamics/memory_use.h"
 #include "core/model/validate.h"
 #include "tests/support/blocks.h"
 #include "tests/support/lattices.h"
@@ -30,6 +31,20 @@ void expect_same_state(const PhysicalModel& found, const PhysicalModel& wanted) 
     EXPECT_EQ(found.edges[e].rest_length, wanted.edges[e].rest_length);
   }
   for (CellId c : ids_of(wanted.cells)) EXPECT_EQ(found.cells[c].valid, wanted.cells[c].valid);
+}
+
+TEST(Lattice, KeepsTheIndicesOfOthersWhenAnObjectRetires) {
+  Lattice lattice = test::lattice_of({moving_block(Vec3::Zero()), moving_block({5.0, 0.0, 0.0})});
+  const std::size_t springs = lattice.active.size();
+  const std::size_t authored = memory_use(lattice).authored;
+  const PhysicalModel other = extract_model(lattice, 1);
+  retire_object(lattice, 0);
+  rebuild_active(lattice);
+  expect_same_state(extract_model(lattice, 1), other);
+  EXPECT_EQ(lattice.active.size(), springs / 2);
+  EXPECT_EQ(lattice.dynamic_points.front(), lattice.objects[1].points.begin);
+  EXPECT_LT(memory_use(lattice).authored, 0.6 * authored);
+  EXPECT_EQ(lattice.objects[0].authored.name, other.name);
 }
 
 TEST(Lattice, GivesTheModelBackAsItWasAdded) {
