@@ -127,6 +127,7 @@ class CoSimulation::Impl : public TickHooks {
   [[noreturn]] void refuse_step(double substeps) const;
   void note(const StepReport& report);
   bool switching() const { return settings_.representation == Representation::kSwitching; }
+  void consider_pairs(double dt);
   void consider_pair(Piece& piece, const btCollisionObject& other, double dt);
   void consider_touch(Piece& piece, const btCollisionObject& other, double dt);
   void consider_sweep(const NearBody& mover, double dt);
