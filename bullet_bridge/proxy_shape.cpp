@@ -76,6 +76,10 @@ struct Outline {
   double volume = 0.0;             // m^3
 };
 
+bool is_flat(const Outline& outline) {
+  return outline.hull && outline.hull->inner_radius() <= kFlatShare * outline.box.half().maxCoeff();
+}
+
 Outline outline_of(std::span<const Vec3> points) {
   Outline outline;
   for (const Vec3& p : points) outline.box.add(p);
@@ -85,6 +89,8 @@ Outline outline_of(std::span<const Vec3> points) {
     outline.volume = 8.0 * outline.box.half().prod();
   } else {
     outline.hull = convex_hull(farthest);
+    // What is low may hide behind its rim in every direction that is looked in.
+    if (is_flat(outline)) outline.hull = convex_hull(points);
     outline.volume = outline.hull->volume;
   }
   return outline;
@@ -108,8 +114,8 @@ std::unique_ptr<btCollisionShape> flat_box(const Box& box, btTransform& pose) {
 std::unique_ptr<btCollisionShape> shape_of(const Outline& outline, btTransform& pose) {
   const Vec3 half = outline.box.half();
   if (!outline.hull) return std::make_unique<Shard<btBoxShape>>(to_bullet(half));
+  if (is_flat(outline)) return flat_box(outline.box, pose);
   const double inside = outline.hull->inner_radius();
-  if (inside <= kFlatShare * half.maxCoeff()) return flat_box(outline.box, pose);
   const double margin =
       std::min({kLargestMargin, kMarginShare * half.minCoeff(), kMarginShareOfInside * inside});
   auto shape = std::make_unique<Shard<btConvexHullShape>>();

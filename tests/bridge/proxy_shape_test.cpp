@@ -63,6 +63,15 @@ TEST(FittedShape, OfATaperedBrickRestsOnItsMaterial) {
   }
 }
 
+// Its tip is no farther out than the rim in any of the 98 directions.
+TEST(FittedShape, OfALowTentIsNoSlab) {
+  ShapeMaterial tent;
+  tent.points = {{-1.0, 0.0, -0.8}, {1.0, 0.0, -0.9}, {0.1, 0.0, 1.1}, {0.03, 0.02, -0.2}};
+  const ProxyShape shape = fit_proxy_shape(tent);
+  ASSERT_EQ(shape.shape().getShapeType(), CONVEX_HULL_SHAPE_PROXYTYPE);
+  EXPECT_EQ(static_cast<const btConvexHullShape&>(shape.shape()).getNumPoints(), 4);
+}
+
 // ---- hollow things -----------------------------------------------------------------------------
 
 // Unit cells in a square of ten by ten, those at its rim alone or all of them.
