@@ -18,6 +18,14 @@ namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 namespace {
 
+bool anyone_is_awake(const btCollisionWorld& world) {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    if (objects[i]->isActive()) return true;
+  }
+  return false;
+}
+
 double mass_of(const btCollisionObject& object) {
   if (!is_movable(object)) return kUnbreakable;
   const btScalar inverse = btRigidBody::upcast(&object)->getInvMass();
@@ -59,6 +67,12 @@ void CoSimulation::Impl::thaw_what_will_be_hit(double dt) {
   // A body at rest receives m g dt a tick, and as much again when its contacts chatter.
   const double weight = 2.0 * world_.getGravity().length() * dt;
   for (Piece* piece : index_.awake()) judge_impulse(*piece, dt, share, weight);
+  // Pairs are many; where all sleep none of them meets anew.
+  if (anyone_is_awake(world_)) consider_pairs(dt);
+  for (const NearBody& mover : sweeping_) consider_sweep(mover, dt);
+}
+
+void CoSimulation::Impl::consider_pairs(double dt) {
   const btBroadphasePairArray& pairs = world_.getPairCache()->getOverlappingPairArray();
   for (int i = 0; i < pairs.size(); ++i) {
     const auto* a = static_cast<const btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject);
@@ -67,7 +81,6 @@ void CoSimulation::Impl::thaw_what_will_be_hit(double dt) {
     if (Piece* piece = index_.rigid(*a)) consider_pair(*piece, *b, dt);
     if (Piece* piece = index_.rigid(*b)) consider_pair(*piece, *a, dt);
   }
-  for (const NearBody& mover : sweeping_) consider_sweep(mover, dt);
 }
 
 // Bullet pairs what sweeps through the world with proxies only when it has reached them.

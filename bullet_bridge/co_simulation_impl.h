@@ -142,6 +142,7 @@ class CoSimulation::Impl : public TickHooks {
                        double substep);
   void note(const StepReport& report);
   bool switching() const { return settings_.representation == Representation::kSwitching; }
+  void consider_pairs(double dt);
   void consider_pair(Piece& piece, const btCollisionObject& other, double dt);
   void consider_touch(Piece& piece, const btCollisionObject& other, double dt);
   void consider_sweep(const NearBody& mover, double dt);

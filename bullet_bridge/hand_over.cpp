@@ -57,19 +57,26 @@ void close_books(HandOver& books, bool regularised) {
 
 }  // namespace
 
-HandOver freeze(btDiscreteDynamicsWorld& world, const Lattice& lattice,
-                std::span<const std::int32_t> points, std::unique_ptr<RigidProxy>& proxy,
-                std::shared_ptr<PieceBody> body) {
-  HandOver books;
-  const RigidMotion before = rigid_motion(lattice.motion, lattice.mass, points);
+RigidState take_state(const Lattice& lattice, std::span<const std::int32_t> points,
+                      HandOver& books) {
+  RigidState state = rigid_state(lattice, points);
   books.kinetic_before_J = kinetic_energy(lattice.motion, lattice.mass, points);
   books.elastic_J = elastic_energy(lattice, points);
   for (std::int32_t p : points) {
     const Vec3 vibration =
-        lattice.motion[p].velocity - before.velocity_at(lattice.motion[p].position);
+        lattice.motion[p].velocity - state.motion.velocity_at(lattice.motion[p].position);
     books.discarded_J += 0.5 * lattice.mass[p] * vibration.squaredNorm();
   }
-  proxy = std::make_unique<RigidProxy>(world, lattice, points, std::move(body));
+  return state;
+}
+
+HandOver freeze(btDiscreteDynamicsWorld& world, const Lattice& lattice,
+                std::span<const std::int32_t> points, std::unique_ptr<RigidProxy>& proxy,
+                std::shared_ptr<PieceBody> body) {
+  HandOver books;
+  RigidState state = take_state(lattice, points, books);
+  const RigidMotion before = state.motion;
+  proxy = std::make_unique<RigidProxy>(world, lattice, points, std::move(state), std::move(body));
   const RigidMotion after = proxy->motion();
   books.kinetic_after_J = after.kinetic_energy();
   note_defects(books, before, after, scale_of(lattice, points, before.centre));

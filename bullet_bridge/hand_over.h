@@ -26,6 +26,10 @@ struct HandOver {
   double unaccounted_rel = 0.0;  // |before - after - discarded - regularised| / before
 };
 
+// The state of a lattice as a body, and the books as far as the lattice's side goes.
+RigidState take_state(const Lattice& lattice, std::span<const std::int32_t> points,
+                      HandOver& books);
+
 // A lattice becomes a body with its P, L and centre of mass. The deformed shape stays, and with it
 // the elastic energy; the vibration's kinetic energy is lost. Points keep their place until thaw().
 // `body`: what has stood for the lattice.

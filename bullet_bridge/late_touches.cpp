@@ -51,7 +51,9 @@ void CoSimulation::Impl::catch_up_with_deflected(double dt) {
   thawing_late_ = true;
   const std::vector<Piece*> others = flexible_pieces();
   for (int i = 0; i < world_.getNumCollisionObjects(); ++i) {
-    btRigidBody* body = btRigidBody::upcast(world_.getCollisionObjectArray()[i]);
+    btCollisionObject& object = *world_.getCollisionObjectArray()[i];
+    if (!object.isActive()) continue;
+    btRigidBody* body = btRigidBody::upcast(&object);
     if (!body || !is_deflected(*body, dt)) continue;
     for (const btCollisionObject* other : reached_by(world_, *body, dt)) {
       if (other == body || !may_meet(world_, *body, *other)) continue;

@@ -86,6 +86,23 @@ std::vector<PointMotion> seen_from(const btCollisionObject& other, const btColli
   return seen;
 }
 
+// Those that lie within `way` (m) of the other body's bounds: the rest cannot get there. Of what
+// rests on a floor that is its lowest layer.
+std::vector<Vec3> points_within(double way, const btCollisionObject& other,
+                                const btCollisionObject& body, std::span<const Vec3> local) {
+  btVector3 low, high;
+  other.getCollisionShape()->getAabb(other.getWorldTransform(), low, high);
+  const Vec3 from = from_bullet(low).array() - way, to = from_bullet(high).array() + way;
+  const Vec3 centre = from_bullet(body.getWorldTransform().getOrigin());
+  const Mat3 rotation = from_bullet(body.getWorldTransform().getRotation()).toRotationMatrix();
+  std::vector<Vec3> within;
+  for (const Vec3& r : local) {
+    const Vec3 at = centre + rotation * r;
+    if ((at.array() >= from.array()).all() && (at.array() <= to.array()).all()) within.push_back(r);
+  }
+  return within;
+}
+
 Box3 box_around(std::span<const PointMotion> seen) {
   Box3 box;
   for (const PointMotion& point : seen) box.extend(point.position);
@@ -99,7 +116,9 @@ std::vector<NearBody> sweeping_bodies(const btCollisionWorld& world, double dt) 
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
     const btCollisionObject& object = *objects[i];
-    if (object.isStaticObject() || is_movable(object) || !is_met(object)) continue;
+    // Most bodies move, sleep or stand: the fewest looks for them.
+    if (btRigidBody::upcast(&object) && !object.isKinematicObject()) continue;
+    if (object.isStaticObject() || !is_met(object)) continue;
     const double way = largest_speed(motion_of(object), object) * dt;
     if (way == 0.0) continue;
     btVector3 low, high;
@@ -202,7 +221,9 @@ std::optional<double> reaching_speed(const btRigidBody& body, std::span<const Ve
       std::clamp(std::ceil(way / (near + kFall)), double{kFewestLooks}, double{kMostLooks}));
   // Half a look ahead or back a point is this much nearer.
   const double margin = near + kFall + 0.5 * way / looks;
-  const std::vector<PointMotion> seen = seen_from(other, body, local, looks, dt);
+  const std::vector<Vec3> some = points_within(way + margin, other, body, local);
+  if (some.empty()) return {};
+  const std::vector<PointMotion> seen = seen_from(other, body, some, looks, dt);
   const Box3 box = box_around(seen);
   const Vec3 around = Vec3::Constant(margin);
   std::optional<double> fastest;

@@ -5,66 +5,12 @@
 #include <algorithm>
 
 #include "bullet_bridge/conversions.h"
+#include "bullet_bridge/shape_material.h"
 #include "core/dynamics/free_rotation.h"
 
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 namespace {
-
-bool whole(const Lattice& lattice, std::int32_t cell) {
-  return lattice.breaking.cell_valid[cell] != 0;
-}
-
-// Valid cells of the piece, by their edges; a cell belongs to the piece of its first point.
-std::vector<std::int32_t> cells_of(const Lattice& lattice, std::span<const std::int32_t> points) {
-  std::vector<std::int32_t> cells;
-  for (std::int32_t p : points) {
-    for (std::int32_t e : lattice.point_edges[p]) {
-      for (std::int32_t c : lattice.topology.edge_cells[e]) {
-        if (whole(lattice, c)) cells.push_back(c);
-      }
-    }
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
-
-std::vector<std::int32_t> points_of_cell(const Lattice& lattice, std::int32_t cell) {
-  std::vector<std::int32_t> points;
-  for (std::int32_t e : lattice.topology.cell_edges[cell]) {
-    points.push_back(lattice.springs[e].a);
-    points.push_back(lattice.springs[e].b);
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
-
-double volume_of_cell(const Lattice& lattice, std::int32_t cell) {
-  const LatticeObject& object =
-      lattice.objects[lattice.point_object[points_of_cell(lattice, cell)[0]]];
-  return cell_volume(object.authored.geometry,
-                     CellId(static_cast<std::size_t>(cell - object.cells.begin)));
-}
-
-std::vector<ShapeItem> shape_items(const Lattice& lattice, std::span<const std::int32_t> points,
-                                   const ProxyFrame& frame) {
-  const Mat3 to_local = frame.orientation.toRotationMatrix().transpose();
-  const auto local = [&](std::int32_t p) -> Vec3 {
-    return to_local * (lattice.motion[p].position - frame.centre);
-  };
-  std::vector<ShapeItem> items;
-  for (std::int32_t c : cells_of(lattice, points)) {
-    ShapeItem item;
-    for (std::int32_t p : points_of_cell(lattice, c)) item.points.push_back(local(p));
-    item.volume = volume_of_cell(lattice, c);
-    items.push_back(std::move(item));
-  }
-  if (!items.empty()) return items;
-  for (std::int32_t p : points) items.push_back({{local(p)}, 0.0});
-  return items;
-}
 
 std::vector<BodyFace> faces_of(const Lattice& lattice, std::span<const std::int32_t> points,
                                const ProxyFrame& frame) {
@@ -74,19 +20,27 @@ std::vector<BodyFace> faces_of(const Lattice& lattice, std::span<const std::int3
 
 }  // namespace
 
-RigidProxy::RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
-                       std::span<const std::int32_t> points, std::shared_ptr<PieceBody> body)
-    : written_basis_(btMatrix3x3::getIdentity()) {
-  written_basis_[0][0] = 2;  // no rotation: nothing was written yet
-  const ProxyFrame frame =
-      proxy_frame(rigid_motion(lattice.motion, lattice.mass, points),
-                  best_rotation(lattice.motion, lattice.authored_position, lattice.mass, points));
-  const Mat3 to_local = frame.orientation.toRotationMatrix().transpose();
+RigidState rigid_state(const Lattice& lattice, std::span<const std::int32_t> points) {
+  RigidState state;
+  state.motion = rigid_motion(lattice.motion, lattice.mass, points);
+  state.frame = proxy_frame(
+      state.motion, best_rotation(lattice.motion, lattice.authored_position, lattice.mass, points));
+  const Mat3 to_local = state.frame.orientation.toRotationMatrix().transpose();
+  state.local.reserve(points.size());
   for (std::int32_t p : points) {
-    local_.push_back(to_local * (lattice.motion[p].position - frame.centre));
+    state.local.push_back(to_local * (lattice.motion[p].position - state.frame.centre));
   }
+  return state;
+}
+
+RigidProxy::RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
+                       std::span<const std::int32_t> points, RigidState state,
+                       std::shared_ptr<PieceBody> body)
+    : local_(std::move(state.local)), written_basis_(btMatrix3x3::getIdentity()) {
+  written_basis_[0][0] = 2;  // no rotation: nothing was written yet
+  const ProxyFrame& frame = state.frame;
   flying_ = {frame.mass, frame.moments, faces_of(lattice, points, frame)};
-  shape_ = fit_proxy_shape(shape_items(lattice, points, frame));
+  shape_ = fit_proxy_shape(shape_material(lattice, points, local_));
   btVector3 middle;
   btScalar radius = 0;
   shape_.shape().getBoundingSphere(middle, radius);

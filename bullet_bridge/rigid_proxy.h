@@ -19,13 +19,22 @@ class btDiscreteDynamicsWorld;
 namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 
+// The state of a piece as a rigid body, from its deformed points.
+struct RigidState {
+  RigidMotion motion;
+  ProxyFrame frame;
+  std::vector<Vec3> local;  // shape (points), m: where they are in the frame
+};
+RigidState rigid_state(const Lattice& lattice, std::span<const std::int32_t> points);
+
 // The rigid body that stands for a piece in Bullet's world while nothing stresses it. The deformed
 // shape is kept: point i of the piece is at centre + R local[i].
 class RigidProxy {
  public:
-  // `body`: what has stood for the piece so far, if anything did.
+  // `state`: of these points. `body`: what has stood for the piece so far, if anything did.
   RigidProxy(btDiscreteDynamicsWorld& world, const Lattice& lattice,
-             std::span<const std::int32_t> points, std::shared_ptr<PieceBody> body = {});
+             std::span<const std::int32_t> points, RigidState state,
+             std::shared_ptr<PieceBody> body = {});
   RigidProxy(const RigidProxy&) = delete;
   RigidProxy& operator=(const RigidProxy&) = delete;
 

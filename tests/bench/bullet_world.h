@@ -36,6 +36,19 @@ class BulletWorld {
     return *bodies_.back();
   }
 
+  // A plain body with the shape, place and mass of a movable other one.
+  btRigidBody& add_twin(const btRigidBody& other) {
+    btRigidBody::btRigidBodyConstructionInfo info(
+        1 / other.getInvMass(), nullptr, const_cast<btCollisionShape*>(other.getCollisionShape()),
+        btVector3(1, 1, 1) / other.getInvInertiaDiagLocal());
+    info.m_startWorldTransform = other.getWorldTransform();
+    info.m_friction = other.getFriction();
+    info.m_restitution = other.getRestitution();
+    info.m_linearSleepingThreshold = other.getLinearSleepingThreshold();
+    info.m_angularSleepingThreshold = other.getAngularSleepingThreshold();
+    return add(info);
+  }
+
   void add_floor() { add_box(0.0, {100, 1, 100}, {0, -1, 0}); }
 
   void tick() { world_.stepSimulation(btScalar(1.0 / 60.0), 0, btScalar(1.0 / 60.0)); }

@@ -36,6 +36,17 @@ void to_rigid(benchmark::State& state) {
 }
 BENCHMARK(to_rigid)->Name("handover/to_rigid")->Arg(1000)->Unit(benchmark::kMicrosecond);
 
+// What a body takes over from its lattice, with the books, without its collision shape.
+void state_alone(benchmark::State& state) {
+  const Lattice lattice = spinning_brick(state.range(0));
+  for (auto _ : state) {
+    HandOver books;
+    benchmark::DoNotOptimize(take_state(lattice, lattice.dynamic_points, books));
+  }
+  state.counters["points"] = static_cast<double>(lattice.motion.size());
+}
+BENCHMARK(state_alone)->Name("handover/state")->Arg(1000)->Unit(benchmark::kMicrosecond);
+
 void to_flexible(benchmark::State& state) {
   bench::BulletWorld bullet;
   Lattice lattice = spinning_brick(state.range(0));
@@ -44,7 +55,9 @@ void to_flexible(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(thaw(lattice, lattice.dynamic_points, *proxy));
   state.counters["points"] = static_cast<double>(lattice.motion.size());
 }
-// What the two are compared with: one substep of the same lattice, springs and integration alone.
+BENCHMARK(to_flexible)->Name("handover/to_flexible")->Arg(1000)->Unit(benchmark::kMicrosecond);
+
+// What they are compared with: one substep of the same lattice, springs and integration alone.
 void one_substep(benchmark::State& state) {
   Lattice lattice = spinning_brick(state.range(0));
   TimeOperator time_operator(lattice, Integrator::kSymplecticEuler, kWorldSprings);
@@ -54,8 +67,6 @@ void one_substep(benchmark::State& state) {
       100.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(one_substep)->Name("handover/100_substeps")->Arg(1000)->Unit(benchmark::kMicrosecond);
-
-BENCHMARK(to_flexible)->Name("handover/to_flexible")->Arg(1000)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace limber::bullet

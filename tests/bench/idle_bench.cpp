@@ -73,19 +73,6 @@ void proxy_idle(benchmark::State& state, Kind kind, Sleep sleep) {
   state.counters["switches"] = static_cast<double>(limber.switches().size() - switched);
 }
 
-// A plain body with the shape, place and mass of a proxy.
-void add_twin(bench::BulletWorld& bullet, const btRigidBody& proxy) {
-  btRigidBody::btRigidBodyConstructionInfo info(
-      1 / proxy.getInvMass(), nullptr, const_cast<btCollisionShape*>(proxy.getCollisionShape()),
-      btVector3(1, 1, 1) / proxy.getInvInertiaDiagLocal());
-  info.m_startWorldTransform = proxy.getWorldTransform();
-  info.m_friction = proxy.getFriction();
-  info.m_restitution = proxy.getRestitution();
-  info.m_linearSleepingThreshold = proxy.getLinearSleepingThreshold();
-  info.m_angularSleepingThreshold = proxy.getAngularSleepingThreshold();
-  bullet.add(info);
-}
-
 void bullet_idle(benchmark::State& state, Kind kind, Sleep sleep) {
   bench::BulletWorld models;
   CoSimulation limber(models.world());
@@ -100,7 +87,7 @@ void bullet_idle(benchmark::State& state, Kind kind, Sleep sleep) {
       limber.add(object(kind, i, count));
     }
   }
-  for (const PieceView& piece : limber.pieces()) add_twin(bullet, *piece.body);
+  for (const PieceView& piece : limber.pieces()) bullet.add_twin(*piece.body);
   measure_ticks(state, bullet, sleep);
 }
 
