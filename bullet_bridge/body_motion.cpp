@@ -14,7 +14,7 @@ inline namespace LIMBER_BULLET_PRECISION {
 namespace {
 
 // Bullet gives the velocities of all links at once, each in its own frame; the base comes first.
-BodyMotion motion_of_link(const btMultiBodyLinkCollider& link) {
+BodySpeeds motion_of_link(const btMultiBodyLinkCollider& link) {
   const btMultiBody& body = *link.m_multiBody;
   const auto count = static_cast<std::size_t>(body.getNumLinks()) + 1;
   std::vector<btVector3> omega(count), velocity(count);
@@ -26,12 +26,12 @@ BodyMotion motion_of_link(const btMultiBodyLinkCollider& link) {
 
 }  // namespace
 
-BodyMotion motion_of(const btCollisionObject& object) {
+BodySpeeds motion_of(const btCollisionObject& object) {
   if (const btRigidBody* body = btRigidBody::upcast(&object)) {
     return {from_bullet(body->getLinearVelocity()), from_bullet(body->getAngularVelocity())};
   }
   const btMultiBodyLinkCollider* link = btMultiBodyLinkCollider::upcast(&object);
-  return link ? motion_of_link(*link) : BodyMotion{};
+  return link ? motion_of_link(*link) : BodySpeeds{};
 }
 
 double reach_of(const btCollisionObject& object) {
@@ -41,7 +41,7 @@ double reach_of(const btCollisionObject& object) {
   return radius + centre.length();
 }
 
-double largest_speed(const BodyMotion& motion, const btCollisionObject& object) {
+double largest_speed(const BodySpeeds& motion, const btCollisionObject& object) {
   const double speed = motion.velocity.norm();
   if (motion.angular_velocity.isZero(0.0)) return speed;
   return speed + motion.angular_velocity.norm() * reach_of(object);

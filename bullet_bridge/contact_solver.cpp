@@ -26,7 +26,7 @@ Vec3 gravity_of(const ShadowBody& shadow) {
   return shadow.linear_factor.cwiseProduct(from_bullet(shadow.body->getGravity()));
 }
 
-BodyMotion motion_of(const ShadowBody& shadow) {
+BodySpeeds speeds_of(const ShadowBody& shadow) {
   return {shadow.velocity, shadow.angular_velocity};
 }
 
@@ -47,7 +47,7 @@ void ContactSolver::begin_tick(btDiscreteDynamicsWorld& world, const BoundaryTra
   substep_ = 0;
   for (const NearBody& body : near) {
     const int shadow = shadows_.shadow_of(*body.object);
-    const double way = largest_speed(motion_of(shadows_[shadow]), *body.object) * tick;
+    const double way = largest_speed(speeds_of(shadows_[shadow]), *body.object) * tick;
     const Vec3 around = Vec3::Constant(way);
     obstacles_.emplace_back(*body.object, shadow, shadows_[shadow], body.low - around,
                             body.high + around, way, shapes_);
@@ -153,7 +153,7 @@ void ContactSolver::list_pairs(const Lattice& lattice, double dt) {
   const double time = kListInterval * dt;
   for (Obstacle& obstacle : obstacles_) {
     const ShadowBody& body = shadows_[obstacle.shadow()];
-    const double body_speed = largest_speed(motion_of(body), obstacle.object());
+    const double body_speed = largest_speed(speeds_of(body), obstacle.object());
     const double least = (2.0 * body_speed + kPushShare * fastest) * time + kListMargin;
     obstacle.list(lattice, surface_, body, {least, 2.0 * time}, dt);
   }

@@ -73,7 +73,7 @@ ShadowBody make_shadow(const btCollisionObject& object) {
   const btTransform& pose = object.getWorldTransform();
   shadow.position = shadow.start_position = from_bullet(pose.getOrigin());
   shadow.orientation = shadow.start_orientation = from_bullet(pose.getRotation());
-  const BodyMotion motion = motion_of(object);
+  const BodySpeeds motion = motion_of(object);
   shadow.velocity = motion.velocity;
   shadow.angular_velocity = motion.angular_velocity;
   auto* body = const_cast<btRigidBody*>(btRigidBody::upcast(&object));

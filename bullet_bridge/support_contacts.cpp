@@ -20,7 +20,7 @@ namespace {
 // Sweeps a substep. Impulses are carried over hundreds of substeps a tick, so that few are needed.
 constexpr int kSweeps = 3;
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 bool carries_load(const btPersistentManifold& manifold) {
   return manifold.getNumContacts() > 0 && manifold.getBody0()->hasContactResponse() &&
@@ -136,7 +136,7 @@ void solve_contact(const PreparedContact& prepared, ShadowSet& shadows, double d
   // An open contact may close within dt; faster separation is left alone because low = 0.
   solve_axis(prepared.axis[0], a, b, -prepared.gap / dt, 0.0, c.impulse);
   for (int t = 0; t < 2; ++t) {
-    solve_axis(prepared.axis[t + 1], a, b, 0.0, -kNoLimit, c.tangent_impulse[t]);
+    solve_axis(prepared.axis[t + 1], a, b, 0.0, -kUnlimited, c.tangent_impulse[t]);
   }
   limit_friction(prepared, a, b);
 }

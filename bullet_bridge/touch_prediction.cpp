@@ -299,7 +299,7 @@ std::optional<PredictedTouch> hardest_touch(const Leaf& mine, const Path& body, 
 
 double largest_closing_speed(const btRigidBody& body, double reach, const btCollisionObject& other,
                              double dt, TickGravity gravity) {
-  const BodyMotion own = motion_of(body), partner = motion_of(other);
+  const BodySpeeds own = motion_of(body), partner = motion_of(other);
   return (own.velocity - partner.velocity).norm() + own.angular_velocity.norm() * reach +
          fall_within(body, dt, gravity) + turning_speed(other) + fall_within(other, dt, gravity);
 }

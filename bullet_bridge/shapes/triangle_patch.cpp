@@ -8,7 +8,7 @@ namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 namespace {
 
-constexpr double kAgree = 0.5;       // cosine of 60 degrees
+constexpr double kFacing = 0.5;       // cosine of 60 degrees
 constexpr double kSame = 1e-12;      // relative: two distances to one and the same point
 constexpr double kSamePlace = 1e-9;  // of a way: edges that triangles share
 constexpr double kGap = 1e-5;        // m between triangles that are meant to touch
@@ -247,7 +247,7 @@ TrianglePatch::Nearest TrianglePatch::nearest_around(TriangleSide from, const Ve
     for (int k = 0; k < 3 && count < kWalk; ++k) {
       const TriangleSide next = triangles_[here.triangle].next[here.front][k];
       if (next.triangle < 0) continue;
-      const bool agrees = facing(next).dot(normal) > kAgree;
+      const bool agrees = facing(next).dot(normal) > kFacing;
       if (!agrees && !here.at.on_side(k)) continue;
       const bool known = std::any_of(steps.begin(), steps.begin() + count,
                                      [&](const Step& s) { return s.triangle == next.triangle; });
@@ -285,7 +285,7 @@ TriangleSide TrianglePatch::taking_over(const Nearest& last, const Vec3& point,
   for_each_near(point - reach, point + reach, [&](std::int32_t i) {
     const PatchTriangle& t = triangles_[i];
     const double facing_it = t.normal.dot(normal);
-    if (std::abs(facing_it) <= kAgree) return;
+    if (std::abs(facing_it) <= kFacing) return;
     const bool front = facing_it > 0.0;
     const double behind = front ? -t.height_of(point) : t.height_of(point);
     const double off = std::abs(behind - depth);

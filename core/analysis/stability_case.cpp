@@ -13,7 +13,7 @@
 namespace limber {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double step_of(const StabilityCase& tried, double limit, const TimeOperator& time) {
   switch (tried.choice) {
@@ -24,7 +24,7 @@ double step_of(const StabilityCase& tried, double limit, const TimeOperator& tim
     case StepChoice::kShare:
       break;
   }
-  if (limit > 0.0 && limit < kInfinity) return tried.step * limit;
+  if (limit > 0.0 && limit < kNever) return tried.step * limit;
   StabilityCase undamped = tried;
   undamped.scheme.step_limit = stable_step;
   undamped.damping_ratio = 0.0;
@@ -54,12 +54,12 @@ double vibration_energy(const Lattice& lattice) {
 // What is too large for a number counts as infinite.
 double largest(std::span<const double> energies) {
   double most = 0.0;
-  for (double e : energies) most = std::isfinite(e) ? std::max(most, e) : kInfinity;
+  for (double e : energies) most = std::isfinite(e) ? std::max(most, e) : kNever;
   return most;
 }
 
 double ratio(double later, double earlier) {
-  if (later == kInfinity) return kInfinity;
+  if (later == kNever) return kNever;
   return later == 0.0 ? 0.0 : later / earlier;
 }
 

@@ -63,7 +63,7 @@ double mobility(const Lattice& lattice, std::int32_t p) {
   return lattice.role[p] == PointRole::kDynamic ? lattice.inverse_mass[p] : 0.0;
 }
 
-void bear(Lattice& lattice, PointContacts::Pair& pair, double dt) {
+void bear_pair(Lattice& lattice, PointContacts::Pair& pair, double dt) {
   if (is_implicit(lattice, pair.a) || is_implicit(lattice, pair.b)) return press(lattice, pair);
   const std::optional<Touch> touch = touch_of(lattice, pair);
   const bool bore = std::exchange(pair.bears, touch.has_value());
@@ -145,7 +145,7 @@ void PointContacts::take_over(PointContacts&& other) {
   const auto join = [](Pairs& mine, const Pairs& theirs) {
     const auto listed = static_cast<std::ptrdiff_t>(mine.size());
     mine.insert(mine.end(), theirs.begin(), theirs.end());
-    std::inplace_merge(mine.begin(), mine.begin() + listed, mine.end(), ascending);
+    std::inplace_merge(mine.begin(), mine.begin() + listed, mine.end(), by_points);
   };
   join(between_, other.between_);
   join(within_, other.within_);
@@ -296,7 +296,7 @@ void PointContacts::add_forces(Lattice& lattice) const {
 
 void PointContacts::bear(Lattice& lattice, double dt) {
   for (Pairs* pairs : {&between_, &within_, &fresh_}) {
-    for (Pair& pair : *pairs) limber::bear(lattice, pair, dt);
+    for (Pair& pair : *pairs) bear_pair(lattice, pair, dt);
   }
 }
 

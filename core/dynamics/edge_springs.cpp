@@ -12,11 +12,11 @@ namespace {
 
 // An object may have edges of very different length; the shortest then lose precision: at this
 // spread a quantum is a strain of 1e-6 of theirs.
-constexpr double kMostSpread = 256.0;
+constexpr double kMostEdgeSpread = 256.0;
 
 // Ranges of parallel loops: some 20 microseconds of work each.
 constexpr std::size_t kBatchesPerRange = 128;
-constexpr std::size_t kPointsPerRange = 1024;
+constexpr std::size_t kPointsInRange = 1024;
 
 // Not the first point: that may be debris, which flies away. Not that of the first spring, which
 // may break: what stays would be rounded differently then. -1: none
@@ -62,7 +62,7 @@ void EdgeSprings::find_frames(const Lattice& lattice, const std::vector<std::int
   for (std::size_t o = 0; o < frames_.size(); ++o) {
     const Extremes& e = extremes[o];
     frames_[o].holds =
-        fits_single_precision(e.shortest, e.longest, e.stiffness, e.damping, kMostSpread);
+        fits_single_precision(e.shortest, e.longest, e.stiffness, e.damping, kMostEdgeSpread);
     if (frames_[o].holds) frames_[o].quanta = Quanta(e.shortest, e.longest);
     frames_[o].origin_point = first_dynamic_point(lattice, lattice.objects[o]);
   }
@@ -129,8 +129,8 @@ void EdgeSprings::read_motion(const Lattice& lattice) {
   for (std::size_t o = 0; o < frames_.size(); ++o) {
     if (frames_[o].origin_point >= 0) frames_[o].origin = lattice.motion[frames_[o].origin_point];
   }
-  fastest_.assign(points_.size() / kPointsPerRange + 1, 0.0);
-  parallel_for(points_.size(), kPointsPerRange, [&](std::size_t from, std::size_t to) {
+  fastest_.assign(points_.size() / kPointsInRange + 1, 0.0);
+  parallel_for(points_.size(), kPointsInRange, [&](std::size_t from, std::size_t to) {
     double fastest = 0.0;
     for (std::size_t i = from; i < to; ++i) {
       const std::int32_t p = points_[i];
@@ -143,7 +143,7 @@ void EdgeSprings::read_motion(const Lattice& lattice) {
         fastest = std::max(fastest, frame.quanta.speed(std::abs(v[axis])));
       }
     }
-    fastest_[from / kPointsPerRange] = fastest;
+    fastest_[from / kPointsInRange] = fastest;
   });
 }
 
@@ -207,9 +207,9 @@ void EdgeSprings::add_forces(Lattice& lattice, double dt,
   const double fastest = *std::max_element(fastest_.begin(), fastest_.end());
   if (Quanta::may_wrap(fastest, dt)) require_measurable(lattice);
   pull_all();
-  if (threads() > 1 && points_.size() > 2 * kPointsPerRange) {
+  if (threads() > 1 && points_.size() > 2 * kPointsInRange) {
     list_pulls_of_points(lattice);
-    parallel_for(points_.size(), kPointsPerRange,
+    parallel_for(points_.size(), kPointsInRange,
                  [&](std::size_t from, std::size_t to) { gather_pulls(from, to); });
   } else {
     std::fill(force_.begin(), force_.end(), PackedForce{});

@@ -9,7 +9,7 @@
 namespace limber {
 namespace {
 
-SpringStretch stretch_of(const Lattice& lattice, const Spring& s) {
+SpringStretch state_of(const Lattice& lattice, const Spring& s) {
   const PointMotion &a = lattice.motion[s.a], &b = lattice.motion[s.b];
   return spring_stretch(b.position - a.position, b.velocity - a.velocity, s.rest_length);
 }
@@ -31,7 +31,7 @@ ImplicitForces::ImplicitForces(const Lattice& lattice, const ImplicitSystem& sys
   }
   for (std::int32_t i : system_.springs()) {
     const Spring& s = lattice.active[i];
-    const SpringStretch state = stretch_of(lattice, s);
+    const SpringStretch state = state_of(lattice, s);
     const double tension = spring_tension(s.stiffness, s.damping, state.stretch, state.rate);
     add_pull(system_, s, -tension * state.direction, constant_);
   }
@@ -55,7 +55,7 @@ Eigen::VectorXd ImplicitForces::remaining_impulse(const Lattice& lattice) const 
   add_supports(lattice, impulse);
   for (std::size_t i = 0; i < lengths_.size(); ++i) {
     const Spring& s = lattice.active[system_.springs()[i]];
-    const SpringStretch state = stretch_of(lattice, s);
+    const SpringStretch state = state_of(lattice, s);
     const double tension = step_spring(s, dt_, lengths_[i]).tension(state.stretch + s.rest_length);
     add_pull(system_, s, dt_ * tension * state.direction, impulse);
   }
@@ -140,7 +140,7 @@ void ImplicitForces::add_elastic(const Lattice& lattice, StepEnergy& energy) con
   double coordinate = 0.0, stiffness = 0.0;
   for (std::int32_t i : system_.springs()) {
     const Spring& s = lattice.active[i];
-    energy.elastic += spring_energy(s.stiffness, stretch_of(lattice, s).stretch);
+    energy.elastic += spring_energy(s.stiffness, state_of(lattice, s).stretch);
     coordinate = std::max(coordinate, lattice.motion[s.a].position.lpNorm<Eigen::Infinity>());
     stiffness += s.stiffness;
   }

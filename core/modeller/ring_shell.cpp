@@ -139,7 +139,7 @@ struct Corner {
   PointId inner() const { return ring->inner[place]; }
 };
 
-using Triangle = std::array<Corner, 3>;
+using CornerTriangle = std::array<Corner, 3>;
 
 std::size_t nearest_place(const Ring& ring, const Vec3& position) {
   std::size_t nearest = 0;
@@ -153,13 +153,13 @@ std::size_t nearest_place(const Ring& ring, const Vec3& position) {
 
 // Walks around both rings at once and always steps along the one that gives the shorter diagonal.
 // Both are walked in the direction of u; a pole has no steps.
-std::vector<Triangle> zip(const Ring& a, const Ring& b) {
+std::vector<CornerTriangle> zip(const Ring& a, const Ring& b) {
   const std::size_t steps_a = a.size() > 1 ? a.size() : 0;
   const std::size_t steps_b = b.size() > 1 ? b.size() : 0;
   const std::size_t start_b = nearest_place(b, a.position[0]);
   const auto on_a = [&](std::size_t i) { return Corner{&a, i % a.size()}; };
   const auto on_b = [&](std::size_t j) { return Corner{&b, (start_b + j) % b.size()}; };
-  std::vector<Triangle> triangles;
+  std::vector<CornerTriangle> triangles;
   std::size_t i = 0, j = 0;
   while (i < steps_a || j < steps_b) {
     const double along_a = (on_a(i + 1).position() - on_b(j).position()).norm();
@@ -172,24 +172,24 @@ std::vector<Triangle> zip(const Ring& a, const Ring& b) {
   return triangles;
 }
 
-std::vector<Triangle> zip_all(const std::vector<Ring>& rings) {
-  std::vector<Triangle> triangles;
+std::vector<CornerTriangle> zip_all(const std::vector<Ring>& rings) {
+  std::vector<CornerTriangle> triangles;
   for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
-    const std::vector<Triangle> band = zip(rings[r], rings[r + 1]);
+    const std::vector<CornerTriangle> band = zip(rings[r], rings[r + 1]);
     triangles.insert(triangles.end(), band.begin(), band.end());
   }
   return triangles;
 }
 
 // All triangles run the same way; whether that is outward depends on the surface's parameters.
-void orient_outward(std::vector<Triangle>& triangles) {
+void orient_outward(std::vector<CornerTriangle>& triangles) {
   double outward = 0.0;
   for (const auto& [a, b, c] : triangles) {
     const Vec3 area = (b.position() - a.position()).cross(c.position() - a.position());
     outward += area.dot(a.normal() + b.normal() + c.normal());
   }
   if (outward > 0.0) return;
-  for (Triangle& t : triangles) std::swap(t[1], t[2]);
+  for (CornerTriangle& t : triangles) std::swap(t[1], t[2]);
 }
 
 void check(const RingShellOptions& options) {
@@ -214,7 +214,7 @@ void add_ring_shell(GeometricModelBuilder& builder, const RingSurface& surface,
                     const RingShellOptions& options) {
   check(options);
   const std::vector<Ring> rings = add_rings(builder, surface, options);  // triangles point into it
-  std::vector<Triangle> triangles = zip_all(rings);
+  std::vector<CornerTriangle> triangles = zip_all(rings);
   orient_outward(triangles);
   for (const auto& [a, b, c] : triangles) {
     add_prism(builder, {a.outer(), b.outer(), c.outer()}, {a.inner(), b.inner(), c.inner()});

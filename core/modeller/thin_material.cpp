@@ -14,7 +14,7 @@ namespace limber {
 namespace {
 
 // A_iijj of the tensor that sheets are fitted to, in units of E t.
-constexpr double kIsotropicTrace = 3.0;
+constexpr double kThinIsotropicTrace = 3.0;
 
 PhysicalModel without_mass(GeometricModel geometry, std::string name) {
   PhysicalModel model = with_default_attributes(std::move(geometry), std::move(name));
@@ -156,7 +156,7 @@ PhysicalModel with_rope_material(GeometricModel geometry, std::string name,
 std::vector<double> isotropic_sheet_stiffness(std::span<const Vec3> edges_m, const Vec3& normal,
                                               double area_m2, double modulus_thickness_N_m) {
   const Eigen::VectorXd share = isotropic_plane_fit(edges_m, normal);  // k_e l_e^2 / (Et area)
-  const double scale = kIsotropicTrace * modulus_thickness_N_m * area_m2 / share.sum();
+  const double scale = kThinIsotropicTrace * modulus_thickness_N_m * area_m2 / share.sum();
   std::vector<double> stiffness;
   for (std::size_t e = 0; e < edges_m.size(); ++e) {
     stiffness.push_back(scale * share[static_cast<Eigen::Index>(e)] / edges_m[e].squaredNorm());

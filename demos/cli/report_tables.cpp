@@ -43,7 +43,7 @@ std::string softening_text(const RunResult& run) {
   return fmt::format("{} (real modulus / simulated)", significant(run.softening));
 }
 
-std::string vector_text(const Vec3& v) {
+std::string speed_text(const Vec3& v) {
   return fmt::format("{:.3f} {:.3f} {:.3f}", v.x(), v.y(), v.z());
 }
 
@@ -55,7 +55,7 @@ std::string numbers_text(const SwitchEvent& event) {
   return text;
 }
 
-std::string section(const TextTable& table) {
+std::string titled(const TextTable& table) {
   std::string text("\n");
   text += table.text();
   return text;
@@ -85,10 +85,10 @@ std::string bodies_section(const RunResult& run) {
   table.add_row(
       {"body", "now", "mass kg", "centre m", "velocity m/s", "broken edges", "fragments"});
   for (const BodySummary& b : grouped_bodies(run.summaries)) {
-    table.add_row({b.name, b.representation, significant(b.mass_kg), vector_text(b.centre_of_mass),
-                   vector_text(b.velocity), grouped(b.broken_edges), grouped(b.fragments)});
+    table.add_row({b.name, b.representation, significant(b.mass_kg), speed_text(b.centre_of_mass),
+                   speed_text(b.velocity), grouped(b.broken_edges), grouped(b.fragments)});
   }
-  return section(table);
+  return titled(table);
 }
 
 std::string largest_pieces(const RunResult& run) {
@@ -108,7 +108,7 @@ std::string broken_section(const RunResult& run) {
   table.add_row({"pieces over 0.5 % of the mass", grouped(count_pieces(run))});
   table.add_row({"the largest, kg", largest_pieces(run)});
   table.add_row({"debris, kg", significant(run.debris_mass)});
-  return section(table);
+  return titled(table);
 }
 
 std::string run_facts(const RunResult& run, Policy policy) {
@@ -177,7 +177,7 @@ std::string errors_section(const Comparison& c) {
                  or_dash(noise.rotation_rad)});
   table.add_row({"fragment masses, L1 / mass", or_dash(c.error.fragment_mass_l1),
                  or_dash(noise.fragment_mass_l1)});
-  return section(table);
+  return titled(table);
 }
 
 std::string outcome_section(const RunResult& flexible, const RunResult& switching) {
@@ -201,7 +201,7 @@ std::string outcome_section(const RunResult& flexible, const RunResult& switchin
   row("highest energy / start",
       [](const RunResult& r) { return significant(r.highest_energy_rel); });
   row("highest rise, m", [](const RunResult& r) { return significant(r.highest_rise_m); });
-  return section(table);
+  return titled(table);
 }
 
 std::string hand_over_section(const RunResult& run) {
@@ -221,7 +221,7 @@ std::string hand_over_section(const RunResult& run) {
   table.add_row({"elastic energy kept while rigid, J", significant(l.energy_stored_J)});
   table.add_row({"vibration discarded, J", significant(l.energy_discarded_J)});
   table.add_row({"worst energy unaccounted for", defect(l.energy_unaccounted_rel)});
-  return section(table);
+  return titled(table);
 }
 
 }  // namespace

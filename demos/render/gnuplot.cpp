@@ -12,15 +12,15 @@ namespace {
 
 constexpr Program kGnuplot = {"gnuplot", "gnuplot", "gnuplot-nox"};
 constexpr const char* kScript = "plot.gp";
-constexpr const char* kImage = "plot.out";
+constexpr const char* kPlot = "plot.out";
 
 // -d: without the user's own settings, so that the plot is the same for everybody.
 std::string draw(const std::string& terminal, const Plot& plot) {
   const ScratchFolder folder;
   std::ofstream(folder.path() / kScript, std::ios::binary)
-      << fmt::format("set terminal {}\nset output '{}'\n", terminal, kImage) << plot.script;
+      << fmt::format("set terminal {}\nset output '{}'\n", terminal, kPlot) << plot.script;
   run_program(kGnuplot, {"-d", kScript}, folder.path());
-  std::string image = bytes_of(folder.path() / kImage);
+  std::string image = bytes_of(folder.path() / kPlot);
   if (!image.empty()) return image;
   throw SimulationError(
       {kGnuplot.name, "wrote no picture", "check that it is a whole installation"});

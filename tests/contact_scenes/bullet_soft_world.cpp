@@ -19,7 +19,7 @@ constexpr int kStepsPerTick = 4;
 constexpr int kIterations = 5;
 // How far nodes stay off what is rigid, and faces off nodes, m. Bullet's own 0.25 is made for
 // bodies of many metres.
-constexpr double kMargin = 0.01;
+constexpr double kSoftMargin = 0.01;
 constexpr double kVoxel = 0.05;  // m, of the distance fields of rigid bodies; Bullet's own: 0.25
 
 std::unique_ptr<btSoftBody> with_nodes(btSoftBodyWorldInfo& world, const PhysicalModel& model) {
@@ -61,7 +61,7 @@ std::unique_ptr<btSoftBody> make_soft_body(btSoftBodyWorldInfo& world, const Phy
   body->m_cfg.collisions = btSoftBody::fCollision::SDF_RS | btSoftBody::fCollision::VF_SS;
   body->m_cfg.kDP = btScalar(0.005);
   body->m_cfg.kDF = static_cast<btScalar>(model.object.friction);
-  body->getCollisionShape()->setMargin(btScalar(kMargin));
+  body->getCollisionShape()->setMargin(btScalar(kSoftMargin));
   std::srand(1);  // randomizeConstraints() has a seed of its own; nodes' order has none
   body->randomizeConstraints();
   return body;

@@ -12,8 +12,8 @@ namespace limber::bullet::test {
 namespace {
 
 constexpr double kCollisionSpeeds[] = {5.0, 20.0, 50.0};  // m/s
-constexpr double kSide = 0.3;                    // m, of the coarse block
-constexpr double kCoarse = kSide / 3;            // m, its spacing
+constexpr double kCoarseSide = 0.3;                    // m, of the coarse block
+constexpr double kCoarse = kCoarseSide / 3;            // m, its spacing
 
 Demand does_not_pass() {
   return {.what = "passed by mm", .most = 0.0, .value = [](const SceneState& state) {
@@ -26,7 +26,7 @@ Demand does_not_pass() {
 Scene collision(const std::string& name, PhysicalModel moving, double speed) {
   set_in_motion(moving, {speed, 0.0, 0.0}, Vec3::Zero());
   return {.name = fmt::format("{} at {:g} m/s", name, speed),
-          .flexible = {std::move(moving), make_block(toy_block(kSide, 3, 1e6), Vec3::Zero())},
+          .flexible = {std::move(moving), make_block(toy_block(kCoarseSide, 3, 1e6), Vec3::Zero())},
           .seconds = 0.2,
           .gravity = 0.0,
           .limits = {.penetration = 0.5 * kCoarse, .momentum_error = by_precision(1e-6, 1e-12)},
@@ -34,13 +34,13 @@ Scene collision(const std::string& name, PhysicalModel moving, double speed) {
 }
 
 PhysicalModel fine_block() {
-  return make_block(toy_block(kSide, 8, 1e6), {-kSide - 0.03, 0.04, 0.03});
+  return make_block(toy_block(kCoarseSide, 8, 1e6), {-kCoarseSide - 0.03, 0.04, 0.03});
 }
 
 PhysicalModel flying_needle() {
   PhysicalModel needle = make_needle({0.0, -0.2, 0.0});
   const Mat3 lying = Eigen::AngleAxisd(-0.5 * M_PI, Vec3::UnitZ()).toRotationMatrix();
-  place(needle, lying, {-0.5 * kSide - 0.2 - 0.03, 0.01, 0.005});
+  place(needle, lying, {-0.5 * kCoarseSide - 0.2 - 0.03, 0.01, 0.005});
   return needle;
 }
 

@@ -8,15 +8,15 @@
 namespace limber::bullet::test {
 namespace {
 
-constexpr double kSide = 0.3;  // m, of the block
+constexpr double kLandingSide = 0.3;  // m, of the block
 constexpr double kLandingDrop = 0.2;  // m
 
 // The block a little aslant above what reaches up to `top`.
 Scene landing(const std::string& name, std::vector<RigidSpec> rigid, double top) {
-  const Block block = toy_block(kSide, 3, 1e5);
+  const Block block = toy_block(kLandingSide, 3, 1e5);
   PhysicalModel model = make_block(block, Vec3::Zero());
   const Mat3 aslant = Eigen::AngleAxisd(0.15, Vec3(1.0, 0.0, 1.0).normalized()).toRotationMatrix();
-  place(model, aslant, {0.03, top + kLandingDrop + 0.6 * kSide, 0.02});
+  place(model, aslant, {0.03, top + kLandingDrop + 0.6 * kLandingSide, 0.02});
   Scene scene{.name = name};
   scene.rigid = std::move(rigid);
   scene.flexible = {model};
@@ -31,7 +31,7 @@ Scene landing_on(const std::string& name, const Shape& shape) {
   Scene scene =
       landing("block on a " + name,
               {ground(), {.shape = shape, .position = {0.0, 0.5 * kHeight, 0.0}}}, kHeight);
-  scene.demands = {lattice_stays_above_ground(0, kSide / 3)};
+  scene.demands = {lattice_stays_above_ground(0, kLandingSide / 3)};
   return scene;
 }
 

@@ -86,7 +86,7 @@ double distance(const Triangle& triangle, const Vec3& p) {
   return from_bullet(closest.m_closestPointOnSimplex).norm();
 }
 
-double depth_inside(const Body& body, const Vec3& p) {
+double depth_in_body(const Body& body, const Vec3& p) {
   if (!body.solid || !body.box.contains(p)) return 0.0;
   double solid_angles = 0.0;
   for (const Triangle& t : body.triangles) solid_angles += solid_angle(t[0], t[1], t[2], p);
@@ -99,8 +99,8 @@ double depth_inside(const Body& body, const Vec3& p) {
 double penetration(const Body& a, const Body& b) {
   if (!a.box.intersects(b.box)) return 0.0;
   double depth = 0.0;
-  for (const Vec3& p : a.samples) depth = std::max(depth, depth_inside(b, p));
-  for (const Vec3& p : b.samples) depth = std::max(depth, depth_inside(a, p));
+  for (const Vec3& p : a.samples) depth = std::max(depth, depth_in_body(b, p));
+  for (const Vec3& p : b.samples) depth = std::max(depth, depth_in_body(a, p));
   return depth;
 }
 
@@ -125,7 +125,7 @@ double penetration(const Body& body, const btRigidBody& rigid) {
   // What is metres large does not disappear in a lattice: the lattice's samples see it.
   if (bounds(rigid).sizes().maxCoeff() > 2.0) return depth;
   for (const Vec3& p : probes_of(shape, kProbeSpacing)) {
-    depth = std::max(depth, depth_inside(body, rotation * p + origin));
+    depth = std::max(depth, depth_in_body(body, rotation * p + origin));
   }
   return depth;
 }

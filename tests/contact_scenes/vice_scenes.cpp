@@ -10,14 +10,14 @@
 namespace limber::bullet::test {
 namespace {
 
-constexpr double kSide = 0.3;      // m, of the cube
+constexpr double kCubeSide = 0.3;      // m, of the cube
 constexpr double kJawDepth = 0.2;  // m
 constexpr double kClosing = 1.0;   // s, and as long for opening
 constexpr double kHolding = 0.5;   // s
 
 // m, of each jaw's face from the middle.
 double face_at(double time, double share) {
-  const double open = 0.5 * kSide + 0.01, closed = 0.5 * share * kSide;
+  const double open = 0.5 * kCubeSide + 0.01, closed = 0.5 * share * kCubeSide;
   const double until_open = 2.0 * kClosing + kHolding - time;
   return open + (closed - open) * std::clamp(std::min(time, until_open) / kClosing, 0.0, 1.0);
 }
@@ -48,15 +48,15 @@ Demand returns() {
             const auto by_x = [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); };
             const auto& points = state.flexible[0].geometry.points;
             const auto [low, high] = std::minmax_element(points.begin(), points.end(), by_x);
-            return 100.0 * std::abs((high->x() - low->x()) / kSide - 1.0);
+            return 100.0 * std::abs((high->x() - low->x()) / kCubeSide - 1.0);
           }};
 }
 
 Scene vice(double share) {
-  const Block cube = toy_block(kSide, 5, 1e5);
+  const Block cube = toy_block(kCubeSide, 5, 1e5);
   Scene scene{.name = fmt::format("cube in a vice, to {:g} % of its size", 100.0 * share)};
   scene.rigid = {ground(), jaw(-1.0, share), jaw(1.0, share)};
-  scene.flexible = {make_block(cube, {0.0, 0.5 * kSide, 0.0})};
+  scene.flexible = {make_block(cube, {0.0, 0.5 * kCubeSide, 0.0})};
   scene.seconds = 4.5;
   // The jaws do work.
   scene.limits = {
