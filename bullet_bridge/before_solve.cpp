@@ -29,6 +29,7 @@ double mass_of(const btCollisionObject& object) {
 void CoSimulation::Impl::before_solve(double dt) {
   in_tick_ = true;
   if (failure_) return;
+  lattice_contacts_.clear();
   stepped_lattice_ = stepped_late_ = false;
   broken_in_tick_ = 0;
   break_points_.clear();
@@ -381,8 +382,25 @@ void CoSimulation::Impl::step(const std::vector<Piece*>& flexible, ContactSolver
   const StepReport report =
       time_operator_.advance(substeps, dt / substeps, environment_, &contacts);
   contacts.write_velocities(world_, dt);
+  note_contacts(contacts);
   stepped_lattice_ = true;
   note(report);
+}
+
+// Now: pieces that break take their bodies with them at the tick's end.
+void CoSimulation::Impl::note_contacts(ContactSolver& contacts) {
+  for (const auto& [body, push] : contacts.take_pushes(lattice_)) {
+    LatticeContact contact;
+    contact.object = static_cast<std::size_t>(push.object);
+    contact.at = push.at;
+    contact.impulse = push.impulse;
+    if (const Piece* other = index_.any(*body)) {
+      contact.other = other->object;
+    } else {
+      contact.body = body;
+    }
+    lattice_contacts_.push_back(contact);
+  }
 }
 
 void CoSimulation::Impl::note(const StepReport& report) {

@@ -96,6 +96,7 @@ class CoSimulation::Impl : public TickHooks {
   std::vector<Diagnostic> notes_;
   Counters counters_;
   std::vector<SwitchRecord> switches_;
+  std::vector<LatticeContact> lattice_contacts_;  // of the last tick
   std::vector<BreakRecord> breaks_;
   std::vector<std::int32_t> break_points_;  // first ends of the edges that broke in this tick
   std::vector<SplitRecord> splits_;
@@ -138,6 +139,7 @@ class CoSimulation::Impl : public TickHooks {
   double substeps_wanted_by(std::size_t object, double dt) const;
   [[noreturn]] void refuse_step(double substeps) const;
   void note(const StepReport& report);
+  void note_contacts(ContactSolver& contacts);
   bool switching() const { return settings_.representation == Representation::kSwitching; }
   void consider_pair(Piece& piece, const btCollisionObject& other, double dt);
   void consider_touch(Piece& piece, const btCollisionObject& other, double dt);
