@@ -1,5 +1,6 @@
 option(LIMBER_TESTS "build tests and benchmarks" ON)
 option(LIMBER_WERROR "treat warnings as errors" OFF)
+option(LIMBER_FUZZ "have bin/fuzz_scripts see which code of the scripting runs" OFF)
 set(LIMBER_SANITIZE "" CACHE STRING "sanitizers, for instance address,undefined")
 
 # Without a preset CMake would build without optimisation. Release is -O3 -DNDEBUG; no -march: one
