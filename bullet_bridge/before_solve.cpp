@@ -37,6 +37,7 @@ double mass_of(const btCollisionObject& object) {
 void CoSimulation::Impl::before_solve(double dt) {
   in_tick_ = true;
   if (failure_) return;
+  lattice_contacts_.clear();
   stepped_lattice_ = stepped_late_ = false;
   broken_in_tick_ = 0;
   break_points_.clear();
@@ -398,6 +399,7 @@ void CoSimulation::Impl::step(const std::vector<Piece*>& flexible, ContactSolver
       time_operator_.advance(substeps, dt / substeps, environment_, &contacts);
   contacts.write_velocities(world_, dt);
   follow_parabola(flexible, before, dt / substeps);
+  note_contacts(contacts);
   stepped_lattice_ = true;
   note(report);
 }
@@ -426,6 +428,22 @@ void CoSimulation::Impl::follow_parabola(const std::vector<Piece*>& pieces,
     }
     const Vec3 shift = -0.5 * substep * (after[i] - before[i]);
     for (std::int32_t p : piece.points) lattice_.motion[p].position += shift;
+  }
+}
+
+// Now: pieces that break take their bodies with them at the tick's end.
+void CoSimulation::Impl::note_contacts(ContactSolver& contacts) {
+  for (const auto& [body, push] : contacts.take_pushes(lattice_)) {
+    LatticeContact contact;
+    contact.object = static_cast<std::size_t>(push.object);
+    contact.at = push.at;
+    contact.impulse = push.impulse;
+    if (const Piece* other = index_.any(*body)) {
+      contact.other = other->object;
+    } else {
+      contact.body = body;
+    }
+    lattice_contacts_.push_back(contact);
   }
 }
 

@@ -200,6 +200,9 @@ std::pair<Mat3, Vec3> CoSimulation::placement(std::size_t object) const {
 const Counters& CoSimulation::counters() const { return impl_->counters_; }
 const std::vector<SwitchRecord>& CoSimulation::switches() const { return impl_->switches_; }
 const std::vector<BreakRecord>& CoSimulation::breaks() const { return impl_->breaks_; }
+const std::vector<LatticeContact>& CoSimulation::lattice_contacts() const {
+  return impl_->lattice_contacts_;
+}
 const std::vector<SplitRecord>& CoSimulation::splits() const { return impl_->splits_; }
 
 std::uint64_t CoSimulation::state_hash() const {

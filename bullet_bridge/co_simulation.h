@@ -89,6 +89,16 @@ struct SplitRecord {
   std::size_t particles = 0;            // and points that became debris
 };
 
+// What lattices of an object and a body of the world did to one another in a step: Bullet's
+// manifolds know nothing of it. What two lattices do to one another is not among these.
+struct LatticeContact {
+  std::size_t object = 0;
+  std::optional<std::size_t> other;         // the object whose piece the body stands for
+  const btCollisionObject* body = nullptr;  // the game's own; null where `other` says more
+  Vec3 at = Vec3::Zero();                   // m, where they pushed hardest
+  double impulse = 0.0;                     // N s, the size of all pushes, of all places
+};
+
 // One connected piece as it is now.
 struct PieceView {
   std::size_t id = 0;  // counts up over the whole simulation; never used again
@@ -200,6 +210,7 @@ class CoSimulation {
   const Counters& counters() const;
   const std::vector<SwitchRecord>& switches() const;
   const std::vector<BreakRecord>& breaks() const;
+  const std::vector<LatticeContact>& lattice_contacts() const;  // of the last step
   const std::vector<SplitRecord>& splits() const;
 
   // Hash of every bit of the points, of what is broken, of the roles, and of the poses and

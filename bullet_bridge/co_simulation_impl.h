@@ -96,6 +96,7 @@ class CoSimulation::Impl : public TickHooks {
   std::vector<Diagnostic> notes_;
   Counters counters_;
   std::vector<SwitchRecord> switches_;
+  std::vector<LatticeContact> lattice_contacts_;  // of the last tick
   std::vector<BreakRecord> breaks_;
   std::vector<std::int32_t> break_points_;  // first ends of the edges that broke in this tick
   std::vector<SplitRecord> splits_;
@@ -141,6 +142,7 @@ class CoSimulation::Impl : public TickHooks {
   void follow_parabola(const std::vector<Piece*>& pieces, const std::vector<Vec3>& before,
                        double substep);
   void note(const StepReport& report);
+  void note_contacts(ContactSolver& contacts);
   bool switching() const { return settings_.representation == Representation::kSwitching; }
   void consider_pairs(double dt);
   void consider_pair(Piece& piece, const btCollisionObject& other, double dt);

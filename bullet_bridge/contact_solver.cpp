@@ -229,6 +229,16 @@ bool ContactSolver::touched(const btCollisionObject& object) const {
   return i >= 0 && shadows_[i].touched;
 }
 
+std::vector<ContactSolver::BodyPush> ContactSolver::take_pushes(const Lattice& lattice) {
+  std::vector<BodyPush> pushes;
+  for (Obstacle& obstacle : obstacles_) {
+    for (const ObjectPush& push : obstacle.take_pushes(lattice)) {
+      pushes.push_back({&obstacle.object(), push});
+    }
+  }
+  return pushes;
+}
+
 std::vector<double> ContactSolver::contact_loads(const Lattice& lattice) const {
   std::vector<double> loads(lattice.motion.size(), 0.0);
   for (const Obstacle& obstacle : obstacles_) obstacle.add_loads(dt_, loads);

@@ -80,6 +80,13 @@ class ContactSolver : public SubstepCoupling {
   // Did the lattice push the body in this tick, directly or through others?
   bool touched(const btCollisionObject& body) const;
 
+  // What lattices and bodies did to one another in this tick, in the order of the bodies. Once.
+  struct BodyPush {
+    const btCollisionObject* body;
+    ObjectPush push;
+  };
+  std::vector<BodyPush> take_pushes(const Lattice& lattice);
+
   // N, shape (P): how hard bodies press points just now, whatever the direction; what presses a
   // face is with one of its corners.
   std::vector<double> contact_loads(const Lattice& lattice) const;

@@ -339,9 +339,35 @@ Mat3 Obstacle::corners_in_frame(const Lattice& lattice, const ShadowBody& body,
 
 void Obstacle::list(const Lattice& lattice, const LatticeSurface& surface, const ShadowBody& body,
                     const ListingReach& reach, double dt) {
+  gather_pushes(lattice, points_);
+  gather_pushes(lattice, faces_);
   list_points(lattice, body, reach, dt);
   list_faces(lattice, surface, body, reach, dt);
   if (points_.empty() && faces_.empty()) sharers_ = 1;
+}
+
+// From the pairs, before they are listed anew.
+template <class P>
+void Obstacle::gather_pushes(const Lattice& lattice, std::vector<P>& pairs) {
+  for (P& pair : pairs) {
+    const double pushed = std::exchange(pair.pushed, 0.0);
+    if (pushed <= 0.0) continue;
+    const std::int32_t object = lattice.point_object[pair.pressed.lawgiver()];
+    auto sum = std::lower_bound(pushes_.begin(), pushes_.end(), object,
+                                [](const ObjectPush& p, std::int32_t o) { return p.object < o; });
+    if (sum == pushes_.end() || sum->object != object)
+      sum = pushes_.insert(sum, {.object = object});
+    sum->impulse += pushed;
+    if (pushed <= sum->hardest) continue;
+    sum->hardest = pushed;
+    sum->at = pair.pressed.position(lattice);
+  }
+}
+
+std::vector<ObjectPush> Obstacle::take_pushes(const Lattice& lattice) {
+  gather_pushes(lattice, points_);
+  gather_pushes(lattice, faces_);
+  return std::exchange(pushes_, {});
 }
 
 bool Obstacle::asks_bullet() const {
@@ -603,6 +629,7 @@ void Obstacle::push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const
                                                          slip - slip.dot(normal) * normal, dt);
   place.add_force(lattice, force);
   if (body.movable()) body.add_force(-force, place.position(lattice));
+  pair.pushed += force.norm() * dt;
   pair.holds = true;
 }
 

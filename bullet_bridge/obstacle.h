@@ -47,6 +47,14 @@ struct ListingReach {
   double time = 0.0;   // s, at the point's own speed
 };
 
+// What the points of one object and a body did to one another.
+struct ObjectPush {
+  std::int32_t object = 0;  // of the lattice
+  double impulse = 0.0;     // N s, the size of all of it
+  double hardest = 0.0;     // N s, of one place since pairs were listed
+  Vec3 at = Vec3::Zero();   // m, of that place
+};
+
 // Some of an obstacle's pairs: those of points, then those of faces, by their numbers.
 struct ObstacleShare {
   std::vector<std::int32_t> points, faces;  // ascending
@@ -109,6 +117,9 @@ class Obstacle {
   // first corner.
   void add_loads(double dt, std::vector<double>& loads) const;
 
+  // What pushed it in this tick, ascending by object; what comes counts for the next one.
+  std::vector<ObjectPush> take_pushes(const Lattice& lattice);
+
   // Marks the points, shape (P), at which what has sunk in is on its way out still.
   void mark_yielding(std::vector<std::uint8_t>& points) const;
 
@@ -127,6 +138,7 @@ class Obstacle {
     PenaltyContact law;         // until the next listing
     PassiveContact books;
     FrictionSpring friction;
+    double pushed = 0.0;  // N s, since pushes were gathered
     bool holds = false;   // it has pressed since it came in
     bool yields = false;  // it is deeper than what it bears would have it
 
@@ -169,6 +181,8 @@ class Obstacle {
   template <class Place>
   double bear(const Lattice& lattice, const ShadowBody& body, Pair<Place>& pair,
               const PenaltyContact& law, double depth, double dt) const;
+  template <class P>
+  void gather_pushes(const Lattice& lattice, std::vector<P>& pairs);
   template <class Place>
   void push(Lattice& lattice, ShadowBody& body, Pair<Place>& pair, const Place& place,
             const Penetration& contact, double dt);
@@ -184,6 +198,7 @@ class Obstacle {
   std::vector<ContactPart> parts_;  // otherwise in the body's frame
   std::vector<PointPair> points_;   // ascending by `of`; its parts in the order of parts_
   std::vector<FacePair> faces_;     // likewise
+  std::vector<ObjectPush> pushes_;  // in this tick so far, ascending by object
   int sharers_ = 1;                 // contacts that pushed the body in the last substep
   int pushed_ = 0;                  // in this one
 };

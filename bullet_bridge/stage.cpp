@@ -3,6 +3,8 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "bullet_bridge/conversions.h"
@@ -14,17 +16,21 @@ namespace {
 // Anything that was added to the world: the floor, and bodies.
 struct Added {
   OwnedShape shape;
+  Mat3 axes;  // of the body in the frame that it is spoken of in
   std::unique_ptr<btRigidBody> body;
 };
 
-std::unique_ptr<btRigidBody> make_body(const StageBody& wanted, btCollisionShape& shape) {
+std::unique_ptr<btRigidBody> make_body(const StageBody& wanted, btCollisionShape& shape,
+                                       const std::optional<PrincipalFrame>& frame = {}) {
   btVector3 inertia(0, 0, 0);
   const auto mass = static_cast<btScalar>(wanted.mass);
   if (wanted.mass > 0.0) shape.calculateLocalInertia(mass, inertia);
+  if (frame) inertia = to_bullet(frame->moments);
   btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, &shape, inertia);
   info.m_startWorldTransform.setOrigin(to_bullet(wanted.centre));
-  if (!wanted.rotation.isIdentity(0.0)) {
-    info.m_startWorldTransform.setRotation(to_bullet(Eigen::Quaterniond(wanted.rotation)));
+  const Mat3 rotation = frame ? Mat3(wanted.rotation * frame->axes) : wanted.rotation;
+  if (!rotation.isIdentity(0.0)) {
+    info.m_startWorldTransform.setRotation(to_bullet(Eigen::Quaterniond(rotation)));
   }
   info.m_friction = static_cast<btScalar>(wanted.friction);
   info.m_restitution = static_cast<btScalar>(wanted.restitution);
@@ -112,11 +118,9 @@ struct Stage::World {
     if (const auto index = co_simulation->object_of(object)) {
       return StageThing{StageThing::Kind::kObject, *index};
     }
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (bodies[i] && bodies[i]->body.get() == &object) {
-        return StageThing{StageThing::Kind::kBody, i};
-      }
-    }
+    const auto index = static_cast<std::size_t>(object.getUserIndex());
+    const bool own = index < bodies.size() && bodies[index] && bodies[index]->body.get() == &object;
+    if (own) return StageThing{StageThing::Kind::kBody, index};
     return {};
   }
 
@@ -158,11 +162,17 @@ void Stage::add_floor(double friction) {
 }
 
 std::size_t Stage::add_body(const StageBody& body) {
-  OwnedShape shape(body.shape);
-  auto made = make_body(body, shape.shape());
+  std::optional<PrincipalFrame> frame;
+  const auto* compound = std::get_if<CompoundShape>(&body.shape);
+  if (compound && body.mass > 0.0) frame = principal_frame(*compound, body.mass);
+  const Mat3 axes = frame ? frame->axes : Mat3(Mat3::Identity());
+  OwnedShape shape(body.shape, axes);
+  auto made = make_body(body, shape.shape(), frame);
+  const std::size_t index = world_->bodies.size();
+  made->setUserIndex(static_cast<int>(index));
   world_->world.addRigidBody(made.get());
-  world_->bodies.push_back(Added{std::move(shape), std::move(made)});
-  return world_->bodies.size() - 1;
+  world_->bodies.push_back(Added{std::move(shape), axes, std::move(made)});
+  return index;
 }
 
 void Stage::remove_body(std::size_t body) {
@@ -177,15 +187,23 @@ bool Stage::has_body(std::size_t body) const { return world_->bodies[body].has_v
 StageMotion Stage::motion(std::size_t index) const {
   const btRigidBody& body = world_->body(index);
   const btTransform& pose = body.getWorldTransform();
-  return {from_bullet(pose.getOrigin()), from_bullet(pose.getRotation()).toRotationMatrix(),
+  const Mat3 rotation = from_bullet(pose.getRotation()).toRotationMatrix();
+  const Mat3& axes = world_->bodies[index]->axes;
+  return {from_bullet(pose.getOrigin()),
+          axes.isIdentity(0.0) ? rotation : Mat3(rotation * axes.transpose()),
           from_bullet(body.getLinearVelocity()), from_bullet(body.getAngularVelocity())};
+}
+
+Vec3 Stage::centre(std::size_t index) const {
+  return from_bullet(world_->body(index).getCenterOfMassPosition());
 }
 
 void Stage::set_motion(std::size_t index, const StageMotion& motion) {
   btRigidBody& body = world_->body(index);
   btTransform pose;
   pose.setOrigin(to_bullet(motion.centre));
-  pose.setRotation(to_bullet(Eigen::Quaterniond(motion.rotation)));
+  pose.setRotation(
+      to_bullet(Eigen::Quaterniond(Mat3(motion.rotation * world_->bodies[index]->axes))));
   world_->wake_neighbours_of(body);
   if (!body.isStaticObject()) {
     body.setLinearVelocity(to_bullet(motion.velocity));
@@ -206,6 +224,8 @@ void Stage::add_joint(const StageJoint& joint) {
   btRigidBody& other = joint.other ? world_->body(*joint.other) : btTypedConstraint::getFixedBody();
   world_->joints.push_back(make_joint(joint, world_->body(joint.body), other));
   world_->world.addConstraint(world_->joints.back().get(), true);
+  world_->body(joint.body).activate();
+  other.activate();
 }
 
 void Stage::throw_object(std::size_t object, const Vec3& velocity, const Vec3& spin) {
@@ -227,13 +247,79 @@ std::optional<StageHit> Stage::ray(const Vec3& from, const Vec3& to) const {
   return StageHit{*thing, from_bullet(met.m_hitPointWorld), from_bullet(met.m_hitNormalWorld)};
 }
 
+namespace {
+
+// Things that a shape reaches into; Bullet tells of points that are only near as well.
+struct Overlapping : btCollisionWorld::ContactResultCallback {
+  const btCollisionObject* own = nullptr;
+  std::vector<const btCollisionObject*> met;
+
+  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int,
+                           const btCollisionObjectWrapper* b, int, int) override {
+    if (point.getDistance() > 0) return 0;
+    const btCollisionObject* const first = a->getCollisionObject();
+    met.push_back(first == own ? b->getCollisionObject() : first);
+    return 0;
+  }
+};
+
+// Each pair once: several pieces of an object may press on the same thing.
+class ContactList {
+ public:
+  void add(const StageContact& contact) {
+    const auto [place, is_new] =
+        place_of_.try_emplace(std::minmax(contact.first, contact.second), contacts_.size());
+    if (is_new) return contacts_.push_back(contact), hardest_.push_back(contact.impulse);
+    StageContact& known = contacts_[place->second];
+    known.impulse += contact.impulse;
+    double& hardest = hardest_[place->second];
+    if (contact.impulse <= hardest) return;
+    hardest = contact.impulse;
+    known.at = contact.at;
+  }
+  std::vector<StageContact> take() { return std::move(contacts_); }
+
+ private:
+  std::vector<StageContact> contacts_;
+  std::vector<double> hardest_;  // N s, of one of those that were added
+  std::map<std::pair<StageThing, StageThing>, std::size_t> place_of_;
+};
+
+}  // namespace
+
+std::vector<StageThing> Stage::overlaps(const SolidShape& shape, const Vec3& centre,
+                                        const Mat3& rotation) const {
+  const OwnedShape owned(std::visit([](const auto& s) { return StageShape(s); }, shape));
+  btCollisionObject probe;
+  probe.setCollisionShape(&owned.shape());
+  probe.setWorldTransform(btTransform(to_bullet(Eigen::Quaterniond(rotation)), to_bullet(centre)));
+  Overlapping seen;
+  seen.own = &probe;
+  world_->world.contactTest(&probe, seen);
+  std::vector<StageThing> things;
+  for (const btCollisionObject* object : seen.met) {
+    if (const auto thing = world_->thing_of(*object)) things.push_back(*thing);
+  }
+  std::ranges::sort(things);
+  things.erase(std::unique(things.begin(), things.end()), things.end());
+  return things;
+}
+
 std::vector<StageContact> Stage::contacts() const {
-  std::vector<StageContact> contacts;
+  ContactList contacts;
   for (int i = 0; i < world_->dispatcher.getNumManifolds(); ++i) {
     const auto contact = world_->contact_in(*world_->dispatcher.getManifoldByIndexInternal(i));
-    if (contact) contacts.push_back(*contact);
+    if (contact) contacts.add(*contact);
   }
-  return contacts;
+  for (const LatticeContact& lattice : co_simulation().lattice_contacts()) {
+    std::optional<StageThing> other;
+    if (lattice.other) other = StageThing{StageThing::Kind::kObject, *lattice.other};
+    if (lattice.body) other = world_->thing_of(*lattice.body);
+    if (!other) continue;
+    const StageThing object{StageThing::Kind::kObject, lattice.object};
+    contacts.add({object, *other, lattice.at, lattice.impulse});
+  }
+  return contacts.take();
 }
 
 CoSimulation& Stage::co_simulation() { return *world_->co_simulation; }

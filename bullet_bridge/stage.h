@@ -33,11 +33,11 @@ struct StageHit {
   Vec3 normal;  // unit, out of what was hit
 };
 
-// What two bodies did to one another in the last tick.
+// What two things did to one another in the last tick.
 struct StageContact {
   StageThing first, second;
   Vec3 at;               // m, where they push hardest
-  double impulse = 0.0;  // N s, of all their points
+  double impulse = 0.0;  // N s, of all their points, whatever the direction
 };
 
 // How two bodies, or a body and the world, are joined.
@@ -64,9 +64,10 @@ class Stage {
   void remove_body(std::size_t body);  // with its joints; once
   bool has_body(std::size_t body) const;
   StageMotion motion(std::size_t body) const;
+  Vec3 centre(std::size_t body) const;                                        // m, as in motion()
   void set_motion(std::size_t body, const StageMotion& motion);               // wakes it
   void apply_impulse(std::size_t body, const Vec3& impulse, const Vec3& at);  // N s, m; wakes it
-  void add_joint(const StageJoint& joint);
+  void add_joint(const StageJoint& joint);  // also while the world runs; wakes what it joins
 
   // All pieces of an object of the CoSimulation move like this from now on, m/s and rad/s.
   void throw_object(std::size_t object, const Vec3& velocity, const Vec3& spin);
@@ -74,8 +75,13 @@ class Stage {
   // The first thing on the way from one place to the other.
   std::optional<StageHit> ray(const Vec3& from, const Vec3& to) const;
 
-  // Of the last tick, in Bullet's order: pairs that press on one another, and at least one moves.
-  // Lattices have none: what they touch is not in Bullet's manifolds.
+  // What a shape would touch there, ascending: bodies and the floor with all of their inside,
+  // objects by their surface.
+  std::vector<StageThing> overlaps(const SolidShape& shape, const Vec3& centre,
+                                   const Mat3& rotation) const;
+
+  // Of the last tick: pairs that press on one another, and at least one moves; each pair once,
+  // those of rigid bodies first, in Bullet's order, then those of lattices with bodies.
   std::vector<StageContact> contacts() const;
 
   CoSimulation& co_simulation();

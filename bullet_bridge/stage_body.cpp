@@ -2,7 +2,9 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <numbers>
 
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/shapes/convex_planes.h"
@@ -69,6 +71,8 @@ TriangleList triangles_of_terrain(const TerrainShape& terrain) {
 
 struct OwnedShape::Data {
   btTriangleMesh mesh;
+  Mat3 axes = Mat3::Identity();
+  std::vector<ShapePointer> parts;  // of a compound
 
   ShapePointer of_triangles(const TriangleList& list) {
     for (const auto& t : list.triangles) {
@@ -110,12 +114,111 @@ struct OwnedShape::Data {
   ShapePointer operator()(const TerrainShape& terrain) {
     return of_triangles(triangles_of_terrain(terrain));
   }
+  ShapePointer operator()(const CompoundShape& compound) {
+    auto whole = std::make_unique<btCompoundShape>();
+    for (const CompoundShape::Part& part : compound.parts) {
+      parts.push_back(std::visit(*this, part.shape));
+      const Mat3 rotation = axes.transpose() * part.rotation;
+      whole->addChildShape(btTransform(to_bullet(Eigen::Quaterniond(rotation)),
+                                       to_bullet(Vec3(axes.transpose() * part.centre))),
+                           parts.back().get());
+    }
+    return whole;
+  }
 };
 
-OwnedShape::OwnedShape(const StageShape& shape)
-    : data_(std::make_unique<Data>()), shape_(std::visit(*data_, shape)) {}
+OwnedShape::OwnedShape(const StageShape& shape, const Mat3& axes)
+    : data_(std::make_unique<Data>()) {
+  data_->axes = axes;
+  shape_ = std::visit(*data_, shape);
+}
 OwnedShape::~OwnedShape() = default;
 OwnedShape::OwnedShape(OwnedShape&&) noexcept = default;
+
+namespace {
+
+// Tetrahedra from the origin to the triangles.
+SolidVolume volume_within(const TriangleList& list) {
+  SolidVolume sum;
+  for (const auto& t : list.triangles) {
+    const Vec3& a = list.positions[static_cast<std::size_t>(t[0])];
+    const Vec3& b = list.positions[static_cast<std::size_t>(t[1])];
+    const Vec3& c = list.positions[static_cast<std::size_t>(t[2])];
+    const double volume = a.dot(b.cross(c)) / 6.0;
+    sum.volume += volume;
+    sum.centre += volume * (a + b + c) / 4.0;
+  }
+  sum.centre /= sum.volume;
+  return sum;
+}
+
+struct VolumeOf {
+  using V = SolidVolume;
+  static double disc(double radius) { return std::numbers::pi * radius * radius; }
+
+  V operator()(const BoxShape& b) const { return {8.0 * b.half_extents.prod()}; }
+  V operator()(const SphereShape& s) const { return {4.0 / 3.0 * s.radius * disc(s.radius)}; }
+  V operator()(const CapsuleShape& c) const {
+    return {disc(c.radius) * (c.height + 4.0 / 3.0 * c.radius)};
+  }
+  V operator()(const CylinderShape& c) const { return {disc(c.radius) * c.height}; }
+  // A quarter of its height above its base.
+  V operator()(const ConeShape& c) const {
+    return {disc(c.radius) * c.height / 3.0, Vec3(0.0, -0.25 * c.height, 0.0)};
+  }
+  V operator()(const HullShape& hull) const { return volume_within(triangles_of_hull(hull)); }
+};
+
+Vec3 centre_of(const CompoundShape::Part& part) {
+  return part.centre + part.rotation * volume_of(part.shape).centre;
+}
+
+// kg m^2, about the part's own centre of mass, in its frame: what Bullet takes for a body of that
+// shape alone.
+Vec3 own_moments(const SolidShape& shape, double mass) {
+  const OwnedShape made(std::visit([](const auto& s) { return StageShape(s); }, shape));
+  btVector3 moments;
+  made.shape().calculateLocalInertia(static_cast<btScalar>(mass), moments);
+  return from_bullet(moments);
+}
+
+}  // namespace
+
+SolidVolume volume_of(const SolidShape& shape) { return std::visit(VolumeOf{}, shape); }
+
+SolidVolume volume_of(const CompoundShape& compound) {
+  SolidVolume sum;
+  for (const CompoundShape::Part& part : compound.parts) {
+    const double volume = volume_of(part.shape).volume;
+    sum.volume += volume;
+    sum.centre += volume * centre_of(part);
+  }
+  sum.centre /= sum.volume;
+  return sum;
+}
+
+Vec3 centre_parts(CompoundShape& compound) {
+  const Vec3 centre = volume_of(compound).centre;
+  for (CompoundShape::Part& part : compound.parts) part.centre -= centre;
+  return centre;
+}
+
+// Steiner: I = sum R I_own R^T + m (r^2 1 - r r^T).
+PrincipalFrame principal_frame(const CompoundShape& compound, double mass) {
+  const double density = mass / volume_of(compound).volume;
+  Mat3 inertia = Mat3::Zero();
+  for (const CompoundShape::Part& part : compound.parts) {
+    const double share = density * volume_of(part.shape).volume;
+    const Vec3 r = centre_of(part);
+    inertia +=
+        part.rotation * own_moments(part.shape, share).asDiagonal() * part.rotation.transpose();
+    inertia += share * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(inertia);
+  PrincipalFrame frame{solver.eigenvectors(), solver.eigenvalues()};
+  if (frame.axes.determinant() < 0.0) frame.axes.col(0) *= -1.0;
+  return frame;
+}
 
 TriangleList triangles_of(const StageShape& shape) {
   if (const auto* hull = std::get_if<HullShape>(&shape)) return triangles_of_hull(*hull);

@@ -46,8 +46,40 @@ struct TerrainShape {
   std::vector<double> heights;  // m, shape (rows, columns)
 };
 
+using SolidShape =
+    std::variant<BoxShape, SphereShape, CapsuleShape, CylinderShape, ConeShape, HullShape>;
+
+// Solids that are one body; each as heavy as its volume. They may overlap: what does counts twice.
+struct CompoundShape {
+  struct Part {
+    SolidShape shape;
+    Vec3 centre = Vec3::Zero();  // m
+    Mat3 rotation = Mat3::Identity();
+  };
+  std::vector<Part> parts;
+};
+
 using StageShape = std::variant<BoxShape, SphereShape, CapsuleShape, CylinderShape, ConeShape,
-                                HullShape, MeshShape, TerrainShape>;
+                                HullShape, MeshShape, TerrainShape, CompoundShape>;
+
+// Of one density, in the frame of the shape.
+struct SolidVolume {
+  double volume = 0.0;         // m^3
+  Vec3 centre = Vec3::Zero();  // m, its centre of mass
+};
+SolidVolume volume_of(const SolidShape& shape);
+SolidVolume volume_of(const CompoundShape& compound);
+
+// Moves the parts so that their centre of mass is the origin; returns where it was.
+Vec3 centre_parts(CompoundShape& compound);
+
+// How a compound of this mass is laid in its body: Bullet keeps three moments of inertia, so its
+// axes have to be the principal ones.
+struct PrincipalFrame {
+  Mat3 axes = Mat3::Identity();  // columns, in the frame of the parts
+  Vec3 moments = Vec3::Zero();   // kg m^2, about them and the origin
+};
+PrincipalFrame principal_frame(const CompoundShape& compound, double mass);
 
 // A rigid body of a Stage.
 struct StageBody {
@@ -69,7 +101,8 @@ struct TriangleList {
 // A shape of Bullet with what it points to.
 class OwnedShape {
  public:
-  explicit OwnedShape(const StageShape& shape);
+  // `axes`: of a compound's body, in the frame of its parts.
+  explicit OwnedShape(const StageShape& shape, const Mat3& axes = Mat3::Identity());
   ~OwnedShape();
   OwnedShape(OwnedShape&&) noexcept;
 

@@ -1,5 +1,7 @@
 option(LIMBER_TESTS "build tests and benchmarks" ON)
 option(LIMBER_WERROR "treat warnings as errors" OFF)
+# The compiler's calls at every branch are fuzz_scripts' own: no other program links with them.
+option(LIMBER_FUZZ "have fuzz_scripts, to be built alone, see which code of the scripting runs" OFF)
 set(LIMBER_SANITIZE "" CACHE STRING "sanitizers, for instance address,undefined")
 
 # Without a preset CMake would build without optimisation. Release is -O3 -DNDEBUG; no -march: one

@@ -1,11 +1,11 @@
--- Biscuits that stand in a curve fall like dominoes; the last ones are brittle, and break.
+-- Biscuits that stand in a curve fall like dominoes; some crumble as they do.
 
 local set = scene{
   summary = "biscuits that stand in a row topple one another",
   seconds = 3,
   parameters = {
     {name = "biscuits", value = 16, meaning = "how many", least = 2, most = 100},
-    {name = "push", value = 0.03, unit = "N s", meaning = "that the first one gets", least = 0,
+    {name = "push", value = 0.012, unit = "N s", meaning = "that the first one gets", least = 0,
      most = 1},
   },
 }
@@ -40,4 +40,4 @@ after{seconds = 2.8, call = function()
   end
   print(fallen .. " of " .. #row .. " fell")
 end}
-camera{position = {0.1, 0.55, 1.0}, target = {0.03, 0.02, -0.05}, field_of_view_deg = 34}
+camera{position = {0.1, 0.36, 0.62}, target = {0.03, 0.02, -0.12}, field_of_view_deg = 34}

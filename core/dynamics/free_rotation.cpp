@@ -6,6 +6,9 @@ namespace limber {
 namespace {
 
 constexpr double kLargestTurn = 0.05;  // rad a step; the error of a step goes with its fifth power
+// Steps of one call: 50 rad. What turns faster, 5e4 rad/s at a substep of a millisecond, is a blur or
+// a mistake; without a bound a call would take for ever.
+constexpr double kMostSteps = 1000.0;
 
 Vec3 world_omega(const Eigen::Quaterniond& q, const Vec3& momentum, const Vec3& moments) {
   return q * Vec3((q.conjugate() * momentum).cwiseQuotient(moments));
@@ -36,7 +39,8 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vec3& ome
 
 void rotate_freely(Eigen::Quaterniond& orientation, Vec3& omega, const Vec3& moments, double dt) {
   const Vec3 momentum = orientation * moments.cwiseProduct(orientation.conjugate() * omega);
-  const int steps = 1 + static_cast<int>(omega.norm() * std::abs(dt) / kLargestTurn);
+  const double turns = omega.norm() * std::abs(dt) / kLargestTurn;
+  const int steps = 1 + static_cast<int>(turns < kMostSteps ? turns : kMostSteps);
   for (int i = 0; i < steps; ++i) {
     orientation = fourth_order_step(orientation, momentum, moments, dt / steps);
   }

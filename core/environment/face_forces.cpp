@@ -15,6 +15,7 @@ bool has_corners(const DragFace& face, auto is_wanted) {
 void append_faces(const Lattice& lattice, const LatticeObject& object, auto is_wanted,
                   std::vector<DragFace>& faces) {
   const PhysicalModel& model = object.authored;
+  if (model.faces.empty()) return;  // it has none, or was retired
   for (std::int32_t f = object.faces.begin; f < object.faces.end; ++f) {
     const FaceId id(static_cast<std::size_t>(f - object.faces.begin));
     if (!lattice.breaking.face_external[f] || !has_drag(model.faces[id])) continue;

@@ -32,11 +32,6 @@ constexpr const char* kBulletPrecision = "float64";
 constexpr const char* kBulletPrecision = "float32";
 #endif
 
-int report(std::ostream& err, const Diagnostic& diagnostic, int exit_code) {
-  err << "limber: " << diagnostic.text() << '\n';
-  return exit_code;
-}
-
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
@@ -111,20 +106,29 @@ void require_all_said(std::ostream& out) {
                     "check where it is redirected to and that the disk is not full"});
 }
 
+int report(Terminal& terminal, const Diagnostic& diagnostic, int exit_code) {
+  say_failure(diagnostic, terminal);
+  return exit_code;
+}
+
 }  // namespace
 
+void say_failure(const Diagnostic& diagnostic, Terminal& terminal) {
+  terminal.err << "limber: " << diagnostic.text() << '\n';
+}
+
 int cli_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+  Terminal terminal{out, err};
   try {
-    Terminal terminal{out, err};
     parse(argc, argv)(terminal);
     require_all_said(out);
     return kDone;
   } catch (const InputError& error) {
-    return report(err, error.diagnostic, kBadInput);
+    return report(terminal, error.diagnostic, kBadInput);
   } catch (const SimulationError& error) {
-    return report(err, error.diagnostic, kSimulationFailed);
+    return report(terminal, error.diagnostic, kSimulationFailed);
   } catch (const std::exception& error) {
-    return report(err, {"internal error", error.what(), "please report it with the command line"},
+    return report(terminal, {"internal error", error.what(), "please report it with the command line"},
                   kSimulationFailed);
   }
 }

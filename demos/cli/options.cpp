@@ -173,8 +173,10 @@ void write_json(const OutputOptions& options, const std::string& text, Terminal&
   }
 }
 
-Scene scene_of(const SceneOptions& options, Terminal& terminal) {
+Scene scene_of(const SceneOptions& options, Terminal& terminal,
+               const std::function<void(const std::filesystem::path&)>& on_file) {
   ScriptSettings settings;
+  settings.on_file = on_file;
   settings.inputs = options.inputs;
   settings.printed = &terminal.err;
   return build_scene(options.scene, options.changes, settings);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,8 +40,10 @@ void add_springs(CLI::App& command, SceneOptions& options);
 void add_threads(CLI::App& command, SceneOptions& options);
 void add_json(CLI::App& command, OutputOptions& options);
 
-// The scene; what its script prints goes to standard error.
-Scene scene_of(const SceneOptions& options, Terminal& terminal);
+// The scene; what its script prints goes to standard error. `on_file`, where given, is called
+// before a file is read that the scene's script names.
+Scene scene_of(const SceneOptions& options, Terminal& terminal,
+               const std::function<void(const std::filesystem::path&)>& on_file = {});
 
 // Refuses an output that is the input: it would be gone.
 void require_other_file(const std::string& input, const std::string& output);

@@ -8,31 +8,24 @@
 #include "core/model/errors.h"
 #include "core/threads/parallel_for.h"
 #include "demos/cli/options.h"
-#include "demos/cli/progress_bar.h"
-#include "demos/cli/report_json.h"
 #include "demos/cli/report_tables.h"
+#include "demos/cli/run_report.h"
+#include "demos/cli/watch.h"
 
 namespace limber::demos {
 namespace {
 
-RunResult run_with_progress(const SceneOptions& options, const Scene& scene, Terminal& terminal) {
-  ProgressBar bar(terminal.err);
-  return run(scene, options.run, [&](double done) { bar.show(scene.name, done); });
+void prepare(const SceneOptions& options) {
+  require_other_file(options.scene, options.json);
+  require_json_target(options);
+  set_threads(options.threads);
 }
 
 void run_scene(const SceneOptions& options, Terminal& terminal) {
   const Scene scene = scene_of(options, terminal);
-  require_other_file(options.scene, options.json);
-  require_json_target(options);
+  prepare(options);
   say_notes(scene.notes, terminal);
-  set_threads(options.threads);
-  const RunResult result = run_with_progress(options, scene, terminal);
-  for (std::size_t n = scene.notes.size(); n < result.notes.size(); ++n) {
-    terminal.err << "note: " << result.notes[n] << '\n';
-  }
-  write_json(options, run_json(result, options.run.policy), terminal);
-  if (tables_wanted(options)) terminal.out << run_report(result, options.run.policy);
-  if (result.failure) throw SimulationError(*result.failure);
+  report_run(options, scene, run_with_progress(options, scene, terminal), terminal);
 }
 
 void list_scenes(Terminal& terminal) { terminal.out << scene_list(scene_library()); }
@@ -62,10 +55,18 @@ void add_run_command(CLI::App& app, Action& chosen) {
   add_json(*command, *options);
   add_set(*command, *options);
   add_inputs(*command, *options);
-  command->callback([command, options, &chosen] {
+  auto watch = std::make_shared<bool>(false);
+  command->add_flag("--watch", *watch,
+                    "run again whenever a file of the scene is saved, until Ctrl-C");
+  command->callback([command, options, watch, &chosen] {
     if (options->scene.empty()) {
       refuse_options_without_scene(*command);
       chosen = list_scenes;
+    } else if (*watch) {
+      chosen = [options](Terminal& terminal) {
+        prepare(*options);
+        watch_scene(*options, terminal);
+      };
     } else {
       chosen = [options](Terminal& terminal) { run_scene(*options, terminal); };
     }

@@ -137,6 +137,14 @@ struct ShapeText {
   std::string operator()(const bullet::HullShape& hull) const { return mesh_text(hull); }
   std::string operator()(const bullet::MeshShape& mesh) const { return mesh_text(mesh); }
   std::string operator()(const bullet::TerrainShape& terrain) const { return mesh_text(terrain); }
+  std::string operator()(const bullet::CompoundShape& compound) const {
+    std::string text = "union {";
+    for (const bullet::CompoundShape::Part& part : compound.parts) {
+      text += fmt::format(" {} {} }}", std::visit(*this, part.shape),
+                          pose_text(part.rotation, part.centre));
+    }
+    return text;
+  }
 
   static std::string round_text(double height, double low_radius, double high_radius) {
     return fmt::format("cone {{ <0,{},0>, {}, <0,{},0>, {}", pov(-0.5 * height), pov(low_radius),

@@ -65,6 +65,7 @@ struct Scene {
   std::vector<RigidBody> bodies;
   std::vector<bullet::StageJoint> joints;
   std::vector<PhysicalModel> objects;
+  std::optional<bullet::SwitchSettings> switching = {};  // none: the usual ones
   // How objects are integrated, by their index; the others as the run has it.
   std::map<std::size_t, bullet::Integration> integration;
   Camera camera;

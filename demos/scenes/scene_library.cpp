@@ -7,7 +7,6 @@
 #include "core/model/nearest_name.h"
 #include "core/model/validate.h"
 #include "core/modeller/softness.h"
-#include "demos/scenes/scenes.h"
 #include "demos/scripting/script_scene.h"
 
 namespace limber::demos {
@@ -18,7 +17,7 @@ SceneEntry find_scene(const std::string& name, const ScriptSettings& settings) {
   if (const auto shipped = shipped_script(name)) return script_entry(*shipped, settings);
   const std::filesystem::path file(name);
   if (std::filesystem::is_regular_file(file)) {
-    if (file.extension() != ".lua") return drop_of(name);
+    if (file.extension() != ".lua") return drop_entry(name, settings);
     return script_entry(script_in_file(file, settings.limits.file_bytes), settings);
   }
   throw InputError({"scene " + name, "there is no scene of that name, nor a script or model file",

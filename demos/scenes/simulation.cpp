@@ -35,8 +35,9 @@ bullet::Integration integration_of(RunOptions::Integration integration) {
   return bullet::Integration::kExplicit;
 }
 
-bullet::CoSimulationSettings settings_of(const RunOptions& options) {
+bullet::CoSimulationSettings settings_of(const RunOptions& options, const Scene& scene) {
   bullet::CoSimulationSettings settings;
+  if (scene.switching) settings.switching = *scene.switching;
   settings.step_scale = options.step_scale;
   if (options.springs) settings.springs = *options.springs;
   settings.integration = integration_of(options.integration);
@@ -126,7 +127,7 @@ struct Simulation::State {
   std::vector<std::vector<double>> masses;      // likewise, kg
 
   State(const Scene& s, const RunOptions& o)
-      : scene(s), options(o), stage(s.gravity, settings_of(o)) {
+      : scene(s), options(o), stage(s.gravity, settings_of(o, s)) {
     if (options.seconds <= 0.0) options.seconds = scene.seconds;
     if (options.tick <= 0.0) options.tick = scene.tick;
     if (scene.floor) stage.add_floor(scene.floor_friction);
@@ -174,10 +175,23 @@ struct Simulation::State {
     return mass;
   }
 
+  bool has_object(std::size_t object) const { return stage.co_simulation().has_object(object); }
+
+  // Where a removed object was in the last sample; one that came and went since was in none.
+  ObjectSample last_of(std::size_t object) const {
+    const std::vector<ObjectSample>& last = samples.back().objects;
+    return object < last.size() ? last[object]
+                                : ObjectSample{start_centre[object], Mat3::Identity()};
+  }
+
   void take_sample() {
     TickSample sample;
     sample.time_s = time;
     for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+      if (!has_object(o)) {
+        sample.objects.push_back(last_of(o));
+        continue;
+      }
       const auto [rotation, centre] = stage.co_simulation().placement(o);
       sample.objects.push_back({centre, rotation});
     }
@@ -233,6 +247,7 @@ struct Simulation::State {
     std::sort(result.piece_masses.rbegin(), result.piece_masses.rend());
     result.fragments = result.piece_masses.size();
     for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+      if (!has_object(o)) continue;
       result.debris_mass += std::max(0.0, limber.debris_mass(o));
       result.total_mass += mass_of(o);
     }
@@ -243,6 +258,13 @@ struct Simulation::State {
     BodySummary body;
     body.name = scene.objects[object].name;
     body.mass_kg = mass_of(object);
+    body.softening = scene.objects[object].object.softening;
+    if (!has_object(object)) {
+      body.centre_of_mass = start_centre[object];
+      body.velocity = Vec3::Zero();
+      body.representation = "removed";
+      return body;
+    }
     const PhysicalModel model = limber.model(object);
     Vec3 momentum = Vec3::Zero();
     body.centre_of_mass = Vec3::Zero();
@@ -259,7 +281,6 @@ struct Simulation::State {
       ++body.fragments;
       flexible += piece.flexible ? 1 : 0;
     }
-    body.softening = model.object.softening;
     body.representation = flexible == 0                ? "rigid"
                           : flexible == body.fragments ? "flexible"
                                                        : "mixed";
@@ -299,6 +320,8 @@ std::size_t Simulation::add_body(const RigidBody& body) {
   return state_->stage.add_body(body);
 }
 
+void Simulation::remove(std::size_t object) { state_->stage.co_simulation().remove(object); }
+
 void Simulation::set_camera(const Camera& camera) { state_->scene.camera = camera; }
 
 const Scene& Simulation::scene() const { return state_->scene; }
@@ -314,6 +337,7 @@ Snapshot Simulation::snapshot() const {
   snapshot.camera = state_->scene.camera;
   const bullet::CoSimulation& limber = state_->stage.co_simulation();
   for (std::size_t o = 0; o < limber.object_count(); ++o) {
+    if (!state_->has_object(o)) continue;
     Snapshot::Body body;
     body.name = state_->scene.objects[o].name;
     body.surface = limber.surface(o);
@@ -381,7 +405,7 @@ RunResult Simulation::result() const {
   result.highest_energy_rel =
       state_->start_energy > 0.0 ? state_->highest_energy / state_->start_energy : 0.0;
   result.state_hash = limber.state_hash();
-  result.spring_precision = settings_of(state_->options).springs;
+  result.spring_precision = settings_of(state_->options, state_->scene).springs;
   result.ledger = totals_of(limber);
   for (const bullet::SwitchRecord& record : limber.switches()) {
     result.switches.push_back(event_of(record, state_->scene));
@@ -396,13 +420,13 @@ RunResult Simulation::result() const {
 }
 
 RunResult run(const Scene& scene, const RunOptions& options,
-              const std::function<void(double)>& progress) {
+              const std::function<void(double)>& progress, const std::function<bool()>& go_on) {
   Simulation simulation(scene, options);
   std::optional<Diagnostic> failure;
   const double seconds = options.seconds > 0.0 ? options.seconds : scene.seconds;
   const double tick = options.tick > 0.0 ? options.tick : scene.tick;
   const auto ticks = static_cast<std::int64_t>(std::ceil(seconds / tick - 1e-9));
-  for (std::int64_t n = 0; n < ticks && !failure; ++n) {
+  for (std::int64_t n = 0; n < ticks && !failure && (!go_on || go_on()); ++n) {
     try {
       simulation.advance_tick();
     } catch (const BehaviourError& error) {

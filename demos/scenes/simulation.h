@@ -61,7 +61,8 @@ struct TickSample {
 // One object at the end of the run.
 struct BodySummary {
   std::string name;
-  std::string representation;  // "rigid", "flexible" or "mixed" (several pieces)
+  // "rigid", "flexible", "mixed" (several pieces), or "removed": all else is as it started then.
+  std::string representation;
   double mass_kg = 0.0;
   Vec3 centre_of_mass;
   Vec3 velocity;
@@ -159,6 +160,8 @@ class Simulation {
   // More things, between ticks; both return the index in scene().
   std::size_t spawn(PhysicalModel model, std::optional<bullet::Integration> integration = {});
   std::size_t add_body(const RigidBody& body);
+  // Out of the world, between ticks; it is left out of reports and pictures from then on.
+  void remove(std::size_t object);
   void set_camera(const Camera& camera);
 
   const Scene& scene() const;  // with what was added
@@ -171,9 +174,10 @@ class Simulation {
 };
 
 // Runs a scene to its end, or until its behaviour fails. `progress`, where given, is called after
-// every tick with 0..1.
+// every tick with 0..1; where `go_on` is given and says no, the run ends with what it has.
 RunResult run(const Scene& scene, const RunOptions& options,
-              const std::function<void(double)>& progress = {});
+              const std::function<void(double)>& progress = {},
+              const std::function<bool()>& go_on = {});
 
 // Spring updates per second of the scene's largest object alone in free space, springs, damping,
 // break check and integration only: the micro-benchmark that `baseline_efficiency` divides by.

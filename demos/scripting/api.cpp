@@ -18,21 +18,40 @@ struct Callable {
   const ApiFunction& function;
   std::string where;  // its full name
   bool is_method;
+  const void* type;  // type_key() of what it is a method of
+  bool calls_back;   // a function of the script's, while it works
 };
+
+template <class... T>
+const void* key_among(std::string_view owner) {
+  const void* key = nullptr;
+  ((owner == kTypeName<T> ? void(key = type_key<T>()) : void()), ...);
+  return key;
+}
+
+const void* key_of(std::string_view owner) {
+  return key_among<Material, ModelHandle, ObjectHandle, BodyHandle, FlowHandle>(owner);
+}
+
+bool takes_function(const std::vector<Field>& fields) {
+  return std::ranges::any_of(
+      fields, [](const Field& f) { return f.kind == Kind::kFunction || takes_function(f.fields); });
+}
 
 const std::vector<Callable>& callables() {
   static const std::vector<Callable> all = [] {
     std::vector<Callable> made;
     for (const ApiFunction& function : api_functions()) {
-      made.push_back({function, function.full_name(), function.is_method()});
+      made.push_back({function, function.full_name(), function.is_method(), key_of(function.owner),
+                      takes_function(function.fields)});
     }
     return made;
   }();
   return all;
 }
 
-// The script's own functions may change the table that a call was given; what was checked is the
-// copy, out of their reach.
+// The script's own functions may change the table that a call was given, while it works; what was
+// checked is the copy, out of their reach. (Without such functions nothing of the script runs.)
 void copy_table(lua_State* lua, int index) {
   lua_newtable(lua);
   for (lua_pushnil(lua); lua_next(lua, index) != 0;) {
@@ -52,9 +71,9 @@ bool is_plain_table(lua_State* lua, int index) {
 }
 
 int checked_call(lua_State* lua, const Callable& callable) {
-  const auto& [function, where, is_method] = callable;
+  const auto& [function, where, is_method, type, calls_back] = callable;
   const int table = is_method ? 2 : 1;
-  if (is_method && !luaL_testudata(lua, 1, function.owner.c_str())) {
+  if (is_method && !data_of_type(lua, 1, type)) {
     raise(lua,
           fmt::format("{}: it is called on a {}; write it with a colon", where, function.owner));
   }
@@ -63,7 +82,7 @@ int checked_call(lua_State* lua, const Callable& callable) {
           fmt::format("{}: it takes one table of named fields; write {}{{...}}", where, where));
   }
   if (function.running) script_of(lua).require_running(where);
-  if (is_plain_table(lua, table)) copy_table(lua, table);
+  if (calls_back && is_plain_table(lua, table)) copy_table(lua, table);
   return function.call(Arguments(lua, table, function.fields, where));
 }
 
@@ -180,7 +199,8 @@ const std::vector<ApiFunction>& api_functions() {
   static const std::vector<ApiFunction> functions = [] {
     std::vector<ApiFunction> all;
     for (auto group : {scene_functions, material_functions, shape_functions, model_functions,
-                       rigid_functions, thing_functions, wind_functions}) {
+                       rigid_functions, body_functions, joint_functions, spawn_functions,
+                       object_queries, object_actions, wind_functions}) {
       for (ApiFunction& function : group()) all.push_back(std::move(function));
     }
     return all;
@@ -204,6 +224,16 @@ const std::vector<ApiOwner>& api_owners() {
       {"body", "A rigid body.", true},
       {"flow", "A primitive of the wind.", true}};
   return owners;
+}
+
+int give(const Arguments& arguments, const Vec3& value) {
+  push(arguments.lua(), value);
+  return 1;
+}
+
+int give(const Arguments& arguments, const std::string& value) {
+  lua_pushlstring(arguments.lua(), value.data(), value.size());
+  return 1;
 }
 
 void open_api(lua_State* lua) {

@@ -52,8 +52,20 @@ std::vector<ApiFunction> shape_functions();
 std::vector<ApiFunction> material_functions();
 std::vector<ApiFunction> model_functions();
 std::vector<ApiFunction> rigid_functions();
-std::vector<ApiFunction> thing_functions();
+std::vector<ApiFunction> body_functions();
+std::vector<ApiFunction> joint_functions();
+std::vector<ApiFunction> spawn_functions();
+std::vector<ApiFunction> object_queries();
+std::vector<ApiFunction> object_actions();
 std::vector<ApiFunction> wind_functions();
+
+// The largest values of a field: what is beyond is a mistake, or hurts single precision.
+inline constexpr double kMostMetres = 1e4;
+inline constexpr double kMostSpeed = 1e4;  // m/s, rad/s
+
+// Results of functions: one value each.
+int give(const Arguments& arguments, const Vec3& value);
+int give(const Arguments& arguments, const std::string& value);
 
 // Makes libraries and types of them in a new state.
 void open_api(lua_State* lua);

@@ -15,9 +15,6 @@
 namespace limber::demos {
 namespace {
 
-constexpr double kMostMetres = 1e4;
-constexpr double kMostSpeed = 1e4;  // m/s, rad/s
-
 PhysicalModel& model_of(const Arguments& given) { return *self<ModelHandle>(given); }
 
 // The model itself, so that calls can be chained.

@@ -5,13 +5,10 @@
 #include "demos/scripting/lua_state.h"
 #include "demos/scripting/script.h"
 
-// Rigid bodies of every shape of Bullet's, and what joins them.
+// Rigid bodies of every shape of Bullet's.
 
 namespace limber::demos {
 namespace {
-
-constexpr double kMostMetres = 1e4;
-constexpr double kMostSpeed = 1e4;  // m/s, rad/s
 
 std::vector<Field> body_fields(std::vector<Field> own, bool moves) {
   std::vector<Field> fields = {
@@ -40,7 +37,9 @@ std::vector<Field> body_fields(std::vector<Field> own, bool moves) {
   return fields;
 }
 
-int give_body(const Arguments& given, bullet::StageShape shape, bool moves) {
+// `middle`: where the shape's origin is in the frame that the script places, m.
+int give_body(const Arguments& given, bullet::StageShape shape, bool moves,
+              const Vec3& middle = Vec3::Zero()) {
   Script& script = script_of(given.lua());
   script.take_body();
   RigidBody body;
@@ -48,6 +47,7 @@ int give_body(const Arguments& given, bullet::StageShape shape, bool moves) {
   body.name = given.text("name");
   body.centre = given.vector("position");
   body.rotation = given.rotation("rotation");
+  if (!middle.isZero(0.0)) body.centre += body.rotation * middle;
   body.friction = given.number("friction");
   body.restitution = given.number("restitution");
   body.colour = given.vector("colour");
@@ -118,6 +118,34 @@ int make_mesh(const Arguments& given) {
   return give_body(given, std::move(mesh), false);
 }
 
+double positive(const Arguments& part, const char* name) {
+  if (part.has(name)) return part.number(name);
+  throw InputError({part.where(), "a " + part.text("shape") + " has no '" + std::string(name) + "'",
+                    "give one to each part that needs it"});
+}
+
+bullet::SolidShape solid_of(const Arguments& part) {
+  const std::string shape = part.text("shape");
+  const auto of = [&](const char* name) { return positive(part, name); };
+  if (shape == "sphere") return bullet::SphereShape{of("radius")};
+  if (shape == "capsule") return bullet::CapsuleShape{of("radius"), of("height")};
+  if (shape == "cylinder") return bullet::CylinderShape{of("radius"), of("height")};
+  if (shape == "cone") return bullet::ConeShape{of("radius"), of("height")};
+  if (part.has("size")) return bullet::BoxShape{0.5 * part.vector("size")};
+  throw InputError({part.where(), "a box has no 'size'", "give one to each part that is a box"});
+}
+
+// The position is that of the parts' origin; what Bullet moves is their centre of mass.
+int make_compound(const Arguments& given) {
+  bullet::CompoundShape compound;
+  given.each("parts", [&](const Arguments& part) {
+    compound.parts.push_back({solid_of(part), part.vector("position"), part.rotation("rotation")});
+  });
+  charge_items(given, compound.parts.size());
+  const Vec3 middle = bullet::centre_parts(compound);
+  return give_body(given, std::move(compound), true, middle);
+}
+
 int make_terrain(const Arguments& given) {
   bullet::TerrainShape terrain;
   terrain.columns = given.whole("columns");
@@ -133,117 +161,18 @@ int make_terrain(const Arguments& given) {
   return give_body(given, std::move(terrain), false);
 }
 
-// A body that is still there.
-std::size_t body_index(const Arguments& given, std::size_t index) {
-  const Simulation* simulation = script_of(given.lua()).simulation();
-  if (!simulation || simulation->stage().has_body(index)) return index;
-  throw InputError({given.where(), "the body was removed", "forget it after body:remove()"});
-}
-
-std::size_t body_index(const Arguments& given) {
-  return body_index(given, self<BodyHandle>(given).index);
-}
-
-bullet::Stage& stage_of(const Arguments& given) {
-  return script_of(given.lua()).simulation()->stage();
-}
-
-bullet::StageMotion motion_of(const Arguments& given) {
-  return stage_of(given).motion(body_index(given));
-}
-
-int name_of(const Arguments& given) {
-  Script& script = script_of(given.lua());
-  const Scene& scene = script.simulation() ? script.simulation()->scene() : script.draft();
-  const std::string& name = scene.bodies[self<BodyHandle>(given).index].name;
-  lua_pushlstring(given.lua(), name.data(), name.size());
-  return 1;
-}
-
-int position_of(const Arguments& given) {
-  push(given.lua(), motion_of(given).centre);
-  return 1;
-}
-
-int velocity_of(const Arguments& given) {
-  push(given.lua(), motion_of(given).velocity);
-  return 1;
-}
-
-int spin_of(const Arguments& given) {
-  push(given.lua(), motion_of(given).spin);
-  return 1;
-}
-
-// Where a point of the body goes: the image of a direction of its own.
-int axis_of(const Arguments& given) {
-  push(given.lua(), Vec3(motion_of(given).rotation * given.vector("of").normalized()));
-  return 1;
-}
-
-int push_body(const Arguments& given) {
-  const std::size_t body = body_index(given);
-  const Vec3 at = given.has("at") ? given.vector("at") : stage_of(given).motion(body).centre;
-  stage_of(given).apply_impulse(body, given.vector("impulse"), at);
-  return 0;
-}
-
-int move_body(const Arguments& given) {
-  const std::size_t body = body_index(given);
-  bullet::StageMotion motion = stage_of(given).motion(body);
-  if (given.has("position")) motion.centre = given.vector("position");
-  if (given.has("rotation")) motion.rotation = given.rotation("rotation");
-  if (given.has("velocity")) motion.velocity = given.vector("velocity");
-  if (given.has("spin")) motion.spin = given.vector("spin");
-  stage_of(given).set_motion(body, motion);
-  return 0;
-}
-
-int remove_body(const Arguments& given) {
-  stage_of(given).remove_body(body_index(given));
-  return 0;
-}
-
-int join(const Arguments& given, bullet::StageJoint::Kind kind) {
-  Script& script = script_of(given.lua());
-  script.require_setting_up(given.where());
-  bullet::StageJoint joint;
-  joint.kind = kind;
-  joint.body = given.handle<BodyHandle>("body")->index;
-  if (const BodyHandle* other = given.handle<BodyHandle>("to")) joint.other = other->index;
-  if (joint.other == joint.body || script.draft().bodies[joint.body].mass == 0.0) {
-    throw InputError({given.where(), "'body' is joined to itself, or does not move",
-                      "give a body with a mass, and another one or none as 'to'"});
-  }
-  joint.at = given.vector("at");
-  if (kind == bullet::StageJoint::Kind::kHinge) joint.axis = given.vector("axis").normalized();
-  script.draft().joints.push_back(joint);
-  return 0;
-}
-
-std::vector<Field> joint_fields() {
-  return {field("body", Kind::kBody, "", "what is joined; it has a mass"),
-          field("to", Kind::kBody, "", "what it is joined to; the world without it").optional(),
-          field("at", Kind::kVector, "m", "where").between(-kMostMetres, kMostMetres)};
-}
-
-std::vector<Field> hinge_fields() {
-  std::vector<Field> fields = joint_fields();
-  fields.push_back(field("axis", Kind::kDirection, "", "that it turns about"));
-  return fields;
-}
-
-std::vector<Field> move_fields() {
-  return {field("position", Kind::kVector, "m", "of its middle")
-              .between(-kMostMetres, kMostMetres)
-              .optional(),
-          rotation_field("of its shape as it was made"),
-          field("velocity", Kind::kVector, "m/s", "of its middle")
-              .between(-kMostSpeed, kMostSpeed)
-              .optional(),
-          field("spin", Kind::kVector, "rad/s", "about its middle")
-              .between(-kMostSpeed, kMostSpeed)
-              .optional()};
+std::vector<Field> part_fields() {
+  return {
+      choice("shape", {"box", "sphere", "capsule", "cylinder", "cone"}, "which kind"),
+      field("size", Kind::kVector, "m", "the edges of a box").between(1e-4, kMostMetres).optional(),
+      number("radius", "m", "of what is round").between(1e-4, kMostMetres).optional(),
+      number("height", "m", "along its own y, as of a body of that shape")
+          .between(1e-4, kMostMetres)
+          .optional(),
+      field("position", Kind::kVector, "m", "of its middle")
+          .or_else(Vec3(0.0, 0.0, 0.0))
+          .between(-kMostMetres, kMostMetres),
+      rotation_field("about its middle")};
 }
 
 std::vector<Field> round_fields(const char* height) {
@@ -252,15 +181,11 @@ std::vector<Field> round_fields(const char* height) {
                      true);
 }
 
-using JointKind = bullet::StageJoint::Kind;
-
 }  // namespace
 
 std::vector<ApiFunction> rigid_functions() {
   const Field points = field("points", Kind::kVectors, "m", "its corners, about its middle")
                            .between(-kMostMetres, kMostMetres);
-  const std::string kBall =
-      "local ball = rigid.sphere{radius = 0.1, mass = 1, position = {0, 1, 0}}\n";
   return {
       {"rigid", "box", "A box.",
        body_fields({field("size", Kind::kVector, "m", "its edges").between(1e-4, kMostMetres)},
@@ -285,6 +210,15 @@ std::vector<ApiFunction> rigid_functions() {
        "rigid.hull{points = {{0, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}}, mass = 1,\n"
        "           position = {0, 0.5, 0}}",
        make_hull},
+      {"rigid", "compound",
+       "Several shapes that are one body, each as heavy as its volume. Its position, and what it "
+       "turns about, is where the origin of its parts goes; body:position() is its centre of mass.",
+       body_fields({records("parts", part_fields(), "what it is made of")}, true), "body",
+       R"(local hammer = rigid.compound{mass = 2, position = {0, 1, 0}, parts = {
+  {shape = "cylinder", radius = 0.02, height = 0.4},
+  {shape = "box", size = {0.2, 0.08, 0.08}, position = {0, 0.2, 0}},
+}})",
+       make_compound},
       {"rigid", "mesh", "Triangles that do not move.",
        body_fields({points, field("triangles", Kind::kNumbers, "",
                                   "three points each, from 1 on, anticlockwise from outside")
@@ -299,79 +233,7 @@ std::vector<ApiFunction> rigid_functions() {
                         .between(-kMostMetres, kMostMetres)},
                    false),
        "body", "rigid.terrain{columns = 3, spacing = 1, heights = {0, 0, 0, 0, 0.3, 0, 0, 0, 0}}",
-       make_terrain},
-      {"body",
-       "name",
-       "Its name.",
-       {},
-       "string",
-       kBall + "assert(ball:name() == \"body\")",
-       name_of},
-      {"body",
-       "position",
-       "Where its middle is, m.",
-       {},
-       "vec",
-       kBall + "function on_tick() assert(ball:position().y > 0) end",
-       position_of,
-       true},
-      {"body",
-       "velocity",
-       "How fast its middle is, m/s.",
-       {},
-       "vec",
-       kBall + "function on_tick() print(ball:velocity()) end",
-       velocity_of,
-       true},
-      {"body",
-       "spin",
-       "How fast it turns, rad/s.",
-       {},
-       "vec",
-       kBall + "function on_tick() print(ball:spin()) end",
-       spin_of,
-       true},
-      {"body",
-       "axis",
-       "Where a direction of its own points now.",
-       {field("of", Kind::kDirection, "", "as the body was made")},
-       "vec",
-       kBall + "function on_tick() assert(ball:axis{of = {0, 1, 0}}.y > 0) end",
-       axis_of,
-       true},
-      {"body",
-       "push",
-       "Pushes it, at once.",
-       {field("impulse", Kind::kVector, "N s", "that it gets").between(-1e9, 1e9),
-        field("at", Kind::kVector, "m", "where; at its middle without it")
-            .between(-kMostMetres, kMostMetres)
-            .optional()},
-       "",
-       kBall + "function on_start() ball:push{impulse = {1, 0, 0}} end",
-       push_body,
-       true},
-      {"body", "move", "Puts it elsewhere, or sets how it moves; what is left out stays.",
-       move_fields(), "", kBall + "function on_start() ball:move{velocity = {0, 2, 0}} end",
-       move_body, true},
-      {"body",
-       "remove",
-       "Takes it out of the world, with its joints.",
-       {},
-       "",
-       kBall + "function on_start() ball:remove() end",
-       remove_body,
-       true},
-      {"joint", "ball", "Holds a point of a body where it is; it may turn about it.",
-       joint_fields(), "", kBall + "joint.ball{body = ball, at = {0, 2, 0}}",
-       [](const Arguments& given) { return join(given, JointKind::kBall); }},
-      {"joint", "hinge", "Lets a body turn about one axis.", hinge_fields(), "",
-       kBall + "joint.hinge{body = ball, at = {0, 2, 0}, axis = {0, 0, 1}}",
-       [](const Arguments& given) { return join(given, JointKind::kHinge); }},
-      {"joint", "fixed", "Holds a body as it is to another one.", joint_fields(), "",
-       kBall + "local rod = rigid.capsule{radius = 0.02, height = 0.5, mass = 1, "
-               "position = {0, 1.3, 0}}\n"
-               "joint.fixed{body = ball, to = rod, at = {0, 1.1, 0}}",
-       [](const Arguments& given) { return join(given, JointKind::kFixed); }}};
+       make_terrain}};
 }
 
 }  // namespace limber::demos

@@ -153,6 +153,72 @@ int cast_ray(const Arguments& given) {
   return 1;
 }
 
+// The floor is no thing: whether it is reached comes second.
+int find_overlaps(const Arguments& given) {
+  lua_State* const lua = given.lua();
+  if (given.has("radius") == given.has("size")) {
+    throw InputError({given.where(), "it needs either a 'radius' or a 'size'",
+                      "give a radius for a ball, a size for a box"});
+  }
+  bullet::SolidShape shape = bullet::SphereShape{given.has("radius") ? given.number("radius") : 0};
+  if (given.has("size")) shape = bullet::BoxShape{0.5 * given.vector("size")};
+  const auto things = script_of(lua).simulation()->stage().overlaps(shape, given.vector("centre"),
+                                                                    given.rotation("rotation"));
+  state_of(lua).spend(things.size());
+  bool floor = false;
+  lua_Integer count = 0;
+  lua_newtable(lua);
+  for (const bullet::StageThing& thing : things) {
+    if (thing.kind == bullet::StageThing::Kind::kFloor) {
+      floor = true;
+      continue;
+    }
+    push_thing(lua, thing);
+    lua_rawseti(lua, -2, ++count);
+  }
+  lua_pushboolean(lua, floor);
+  return 2;
+}
+
+int set_switching(const Arguments& given) {
+  Script& script = script_of(given.lua());
+  script.require_setting_up(given.where());
+  bullet::SwitchSettings& settings = script.draft().switching.emplace();
+  settings.load_share = given.number("load_share");
+  settings.visible_strain = given.number("visible_strain");
+  settings.calm_load_share = given.number("calm_load_share");
+  settings.steady_load_share = given.number("steady_load_share");
+  settings.calm_ticks = given.whole("calm_ticks");
+  settings.load_time = given.number("load_time");
+  return 0;
+}
+
+std::vector<Field> switching_fields() {
+  const bullet::SwitchSettings usual;
+  return {number("load_share", "",
+                 "a piece becomes a lattice when a load would strain it by this share of what "
+                 "breaks its weakest spring")
+              .or_else(usual.load_share)
+              .between(1e-6, 1e6),
+          number("visible_strain", "", "or by this strain, whatever it bears")
+              .or_else(usual.visible_strain)
+              .between(1e-9, 1e6),
+          number("calm_load_share", "",
+                 "a lattice becomes rigid when its springs bear less than this share of what "
+                 "breaks them")
+              .or_else(usual.calm_load_share)
+              .between(1e-6, 1e6),
+          number("steady_load_share", "", "or what they bear changes by less than this in a tick")
+              .or_else(usual.steady_load_share)
+              .between(1e-6, 1e6),
+          field("calm_ticks", Kind::kWhole, "", "for so many ticks")
+              .or_else(static_cast<double>(usual.calm_ticks))
+              .between(1.0, 1e6),
+          number("load_time", "s", "over which loads are averaged")
+              .or_else(usual.load_time)
+              .between(1e-4, 1e3)};
+}
+
 std::vector<Field> parameter_fields() {
   return {field("name", Kind::kText, "", "as in --set NAME=VALUE"),
           number("value", "", "without --set"),
@@ -250,6 +316,22 @@ rigid.sphere{radius = 0.1, mass = 1, position = {0, set.height, 0}})",
        "",
        "function on_input(name, value) print(name, value) end\nplay{name = \"throw\", at = 0.01}",
        play},
+      {"", "switching", "When pieces become lattices and rigid bodies again, in this scene.",
+       switching_fields(), "", "switching{load_share = 0.1, calm_ticks = 10}", set_switching},
+      {"",
+       "overlap",
+       "What a ball or a box would touch: a list of objects and bodies, and whether it reaches the "
+       "floor. Bodies count with their inside, objects by their surface.",
+       {field("centre", Kind::kVector, "m", "of the ball or box").between(-1e6, 1e6),
+        number("radius", "m", "of a ball").between(1e-4, 1e4).optional(),
+        field("size", Kind::kVector, "m", "the edges of a box").between(1e-4, 1e4).optional(),
+        rotation_field("of the box about its centre")},
+       "table, boolean",
+       "local ball = rigid.sphere{radius = 0.1, mass = 1, position = {0, 1, 0}}\n"
+       "function on_start()\n  local things, floor = overlap{centre = {0, 1, 0}, radius = 0.2}\n"
+       "  assert(things[1] == ball and not floor)\nend",
+       find_overlaps,
+       true},
       {"",
        "ray",
        "The first thing on the way between two places: a table of thing (nil: the floor), at, "
@@ -282,12 +364,13 @@ const std::vector<ApiCallback>& api_callbacks() {
        {},
        "function on_input(name, value) print(name, value) end"},
       {"on_contact",
-       "Two things began to press on one another. Lattices are not told of here: on_flexible says "
-       "when one was touched.",
+       "Two things began to press on one another, whichever they are just now; of two lattices "
+       "that touch one another on_flexible alone tells.",
        {},
-       {field("thing", Kind::kThing, "", "one of them"),
+       {field("thing", Kind::kThing, "", "one of them: of a body and an object the body"),
         field("other", Kind::kThing, "", "the other; nil: the floor"),
-        field("at", Kind::kVector, "m", "where"), number("impulse", "N s", "of this tick")},
+        field("at", Kind::kVector, "m", "where"),
+        number("impulse", "N s", "of this tick, the size of all pushes")},
        "rigid.sphere{radius = 0.1, mass = 1, position = {0, 0.1, 0}}\n"
        "function on_contact(event) assert(event.impulse > 0) end"},
       {"on_flexible",

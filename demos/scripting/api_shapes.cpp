@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "core/modeller/box_lattice.h"
+#include "core/modeller/material_assignment.h"
 #include "core/modeller/mesh_lattice.h"
 #include "core/modeller/particle_cloud.h"
 #include "core/modeller/read_mesh.h"
@@ -25,7 +26,6 @@ using std::numbers::pi;
 
 // Most cells along one side of anything.
 constexpr double kMostCells = 500.0;
-constexpr double kMostMetres = 1e4;
 
 Field name_field(const char* usual) {
   return field("name", Kind::kText, "", "in reports").or_else(std::string(usual));
@@ -60,6 +60,25 @@ std::vector<Field> with_common(const char* usual_name, std::vector<Field> own) {
   return fields;
 }
 
+Field corner_field(const char* name, const char* meaning) {
+  return field(name, Kind::kVector, "m", meaning).between(-kMostMetres, kMostMetres).optional();
+}
+
+// Of what is filled with cells: some of them may be of another material.
+std::vector<Field> solid_fields(const char* usual_name, std::vector<Field> own) {
+  std::vector<Field> fields = with_common(usual_name, std::move(own));
+  fields.push_back(records("regions",
+                           {field("material", Kind::kMaterial, "", "of the cells in it"),
+                            corner_field("low", "the lowest corner of a box"),
+                            corner_field("high", "and its highest"),
+                            corner_field("centre", "of a ball, instead"),
+                            number("radius", "m", "of it").between(1e-4, kMostMetres).optional()},
+                           "where it is made of something else, as modelled; of two that overlap "
+                           "the first counts")
+                       .optional());
+  return fields;
+}
+
 // The limit is asked before the shape is made, by what it will have at least.
 void expect_points(const Arguments& given, double points) {
   script_of(given.lua()).take_points(points);
@@ -71,7 +90,34 @@ int give_model(const Arguments& given, PhysicalModel model) {
   return 1;
 }
 
+Region region_of(const Arguments& given) {
+  const bool box = given.has("low") && given.has("high");
+  const bool ball = given.has("centre") && given.has("radius");
+  if (box == ball) {
+    throw InputError({given.where(), "a region is neither a box nor a ball, or both",
+                      "give it 'low' and 'high', or 'centre' and 'radius'"});
+  }
+  if (ball) return in_sphere(given.vector("centre"), given.number("radius"));
+  return in_box(given.vector("low"), given.vector("high"));
+}
+
+// What an object has once is that of its main material.
+PhysicalModel of_several(const Arguments& given, GeometricModel geometry) {
+  std::vector<Material> materials = {given.material("material")};
+  std::vector<std::pair<Region, std::size_t>> regions;
+  given.each("regions", [&](const Arguments& region) {
+    regions.emplace_back(region_of(region), materials.size());
+    materials.push_back(region.material("material"));
+  });
+  const Material& main = materials.front();
+  const WholeObjectValues whole{main.damping_ratio, main.internal_damping, main.friction,
+                                main.restitution};
+  return with_materials(std::move(geometry), given.text("name"), materials,
+                        by_region(std::move(regions), 0), whole);
+}
+
 PhysicalModel solid(const Arguments& given, GeometricModel geometry) {
+  if (given.has("regions")) return of_several(given, std::move(geometry));
   return with_material(std::move(geometry), given.text("name"), given.material("material"));
 }
 
@@ -273,7 +319,7 @@ int make_teapot(const Arguments& given) {
 }
 
 std::vector<Field> box_fields() {
-  return with_common(
+  return solid_fields(
       "box", {field("size", Kind::kVector, "m", "its edges").between(1e-6, kMostMetres),
               field("cells", Kind::kWholes, "", "along each edge").between(1.0, kMostCells),
               place_field("centre", "its middle"),
@@ -317,13 +363,13 @@ spawn{model = shape.box{size = {0.2, 0.1, 0.2}, cells = {4, 2, 4}, centre = {0, 
                         material = jelly}})",
        make_box},
       {"shape", "sphere", "A ball.",
-       with_common("sphere", {length("radius", "of it"), place_field("centre", "its middle"),
-                              cells_across_field()}),
+       solid_fields("sphere", {length("radius", "of it"), place_field("centre", "its middle"),
+                               cells_across_field()}),
        "model",
        "spawn{model = shape.sphere{radius = 0.1, centre = {0, 0.2, 0}, material = \"rubber\"}}",
        make_sphere},
       {"shape", "cylinder", "A cylinder that stands along y.",
-       with_common(
+       solid_fields(
            "cylinder",
            {length("radius", "of it"), length("height", "of it"),
             place_field("base", "the middle of its lower end"), cells_across_field(),
@@ -333,18 +379,18 @@ spawn{model = shape.box{size = {0.2, 0.1, 0.2}, cells = {4, 2, 4}, centre = {0, 
        "                             cells_across = 4}}",
        make_cylinder},
       {"shape", "turned", "A solid as a lathe makes it, about the y axis.",
-       with_common("turned",
-                   {field("radius", Kind::kFunction, "", "function(y) that gives the radius, m"),
-                    number("low", "m", "y of its lower end").between(-kMostMetres, kMostMetres),
-                    number("high", "m", "y of its upper end").between(-kMostMetres, kMostMetres),
-                    cells_across_field(), cells_field("cells_along", "along y").or_else(8.0)}),
+       solid_fields("turned",
+                    {field("radius", Kind::kFunction, "", "function(y) that gives the radius, m"),
+                     number("low", "m", "y of its lower end").between(-kMostMetres, kMostMetres),
+                     number("high", "m", "y of its upper end").between(-kMostMetres, kMostMetres),
+                     cells_across_field(), cells_field("cells_along", "along y").or_else(8.0)}),
        "model",
        R"(local pin = shape.turned{
   radius = function(y) return 0.04 + 0.02 * math.sin(20 * y) end,
   low = 0, high = 0.3, cells_across = 4, material = "spruce"})",
        make_turned},
       {"shape", "vessel", "A shell that a profile sweeps about the y axis: a cup, a plate, a vase.",
-       with_common(
+       solid_fields(
            "vessel",
            {field("profile", Kind::kFunction, "",
                   "function(t) that gives radius and height, m, for t from 0 to 1; its "
@@ -381,7 +427,7 @@ spawn{model = rope})",
                           cells_u = 6, cells_v = 4, thickness = 1e-3, material = "rubber"}})",
        make_sheet},
       {"shape", "shell", "A surface with a wall, of one layer of cells.",
-       plus(with_common("shell", surface_fields()), {length("wall", "its thickness")}), "model",
+       plus(solid_fields("shell", surface_fields()), {length("wall", "its thickness")}), "model",
        R"(local glass = material{like = "glass", softening = 1000}
 spawn{model = shape.shell{width = 0.2, depth = 0.2, cells_u = 8, cells_v = 8, wall = 0.004,
                           centre = {0, 0.3, 0}, material = glass}})",
@@ -398,9 +444,10 @@ spawn{model = shape.shell{width = 0.2, depth = 0.2, cells_u = 8, cells_v = 8, wa
        "                           density = 2600}}",
        make_grains},
       {"shape", "mesh", "A lattice of cubes in the shape of a closed mesh: OBJ, PLY, STL or glTF.",
-       with_common("mesh", {field("file", Kind::kText, "", "in the scene's folder"),
-                            length("spacing", "side of a cell"),
-                            number("scale", "m", "in a unit of the file").or_else(1.0).above(0.0)}),
+       solid_fields("mesh",
+                    {field("file", Kind::kText, "", "in the scene's folder"),
+                     length("spacing", "side of a cell"),
+                     number("scale", "m", "in a unit of the file").or_else(1.0).above(0.0)}),
        "model",
        R"(-- Wants a file beside the script.
 local found, why = pcall(shape.mesh, {file = "missing.obj", spacing = 0.01, material = "rubber"})

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include "core/model/bounds.h"
 #include "core/model/validate.h"
@@ -10,9 +11,6 @@
 
 namespace limber::demos {
 namespace {
-
-constexpr double kMostMetres = 1e4;
-constexpr double kMostSpeed = 1e4;  // m/s, rad/s
 
 // The model as it starts: placed and moved where that was asked for, and to the bit as it was
 // otherwise.
@@ -59,19 +57,24 @@ int spawn(const Arguments& given) {
   return 1;
 }
 
-std::size_t object_of(const Arguments& given) { return self<ObjectHandle>(given).index; }
+// One that is still there.
+std::size_t object_of(const Arguments& given) {
+  const std::size_t index = self<ObjectHandle>(given).index;
+  const Simulation* simulation = script_of(given.lua()).simulation();
+  if (!simulation || simulation->stage().co_simulation().has_object(index)) return index;
+  throw InputError({given.where(), "the object was removed", "forget it after object:remove()"});
+}
 
 bullet::CoSimulation& limber_of(const Arguments& given) {
   return script_of(given.lua()).simulation()->stage().co_simulation();
 }
 
 // Sums over the pieces of the object: debris is left out.
-RigidMotion motion_of(const Arguments& given) {
+RigidMotion motion_of(const Arguments& given, std::span<const bullet::PieceView> pieces) {
   RigidMotion sum;
   sum.mass = 0.0;
   sum.centre = sum.velocity = Vec3::Zero();
-  for (const bullet::PieceView& piece : script_of(given.lua()).pieces()) {
-    if (piece.object != object_of(given)) continue;
+  for (const bullet::PieceView& piece : pieces) {
     sum.mass += piece.motion.mass;
     sum.centre += piece.motion.mass * piece.motion.centre;
     sum.velocity += piece.motion.mass * piece.motion.velocity;
@@ -85,29 +88,26 @@ RigidMotion motion_of(const Arguments& given) {
   return sum;
 }
 
-int name_of(const Arguments& given) {
-  Script& script = script_of(given.lua());
-  const Scene& scene = script.simulation() ? script.simulation()->scene() : script.draft();
-  const std::string& name = scene.objects[object_of(given)].name;
-  lua_pushlstring(given.lua(), name.data(), name.size());
-  return 1;
+Vec3 centre_of(const Arguments& given) {
+  return motion_of(given, script_of(given.lua()).places_of(object_of(given))).centre;
 }
 
-int position_of(const Arguments& given) {
-  push(given.lua(), motion_of(given).centre);
-  return 1;
+int name_of(const Arguments& given) {
+  return give(given,
+              script_of(given.lua()).scene_now().objects[self<ObjectHandle>(given).index].name);
 }
+
+int position_of(const Arguments& given) { return give(given, centre_of(given)); }
 
 int velocity_of(const Arguments& given) {
-  push(given.lua(), motion_of(given).velocity);
-  return 1;
+  return give(given, motion_of(given, script_of(given.lua()).pieces_of(object_of(given))).velocity);
 }
 
 template <class Value>
 int sum_over_pieces(const Arguments& given, const Value& value) {
   double sum = 0.0;
-  for (const bullet::PieceView& piece : script_of(given.lua()).pieces()) {
-    if (piece.object == object_of(given)) sum += value(piece);
+  for (const bullet::PieceView& piece : script_of(given.lua()).pieces_of(object_of(given))) {
+    sum += value(piece);
   }
   lua_pushnumber(given.lua(), sum);
   return 1;
@@ -123,17 +123,14 @@ int energy_of(const Arguments& given) {
 }
 
 int count_pieces(const Arguments& given) {
-  const auto& pieces = script_of(given.lua()).pieces();
-  lua_pushinteger(given.lua(),
-                  std::ranges::count(pieces, object_of(given), &bullet::PieceView::object));
+  const auto pieces = script_of(given.lua()).places_of(object_of(given));
+  lua_pushinteger(given.lua(), static_cast<lua_Integer>(pieces.size()));
   return 1;
 }
 
 int is_flexible(const Arguments& given) {
-  const auto& pieces = script_of(given.lua()).pieces();
-  lua_pushboolean(given.lua(), std::ranges::any_of(pieces, [&](const bullet::PieceView& p) {
-                    return p.object == object_of(given) && p.flexible;
-                  }));
+  const auto pieces = script_of(given.lua()).places_of(object_of(given));
+  lua_pushboolean(given.lua(), std::ranges::any_of(pieces, &bullet::PieceView::flexible));
   return 1;
 }
 
@@ -178,9 +175,9 @@ int give_model_now(const Arguments& given) {
 }
 
 int push_object(const Arguments& given) {
-  const Vec3 at = given.has("at") ? given.vector("at") : motion_of(given).centre;
+  const Vec3 at = given.has("at") ? given.vector("at") : centre_of(given);
   limber_of(given).apply_impulse(object_of(given), given.vector("impulse"), at);
-  script_of(given.lua()).state_changed();
+  script_of(given.lua()).motion_changed();
   return 0;
 }
 
@@ -188,6 +185,13 @@ int throw_object(const Arguments& given) {
   Script& script = script_of(given.lua());
   script.simulation()->stage().throw_object(object_of(given), given.vector("velocity"),
                                             given.vector("spin"));
+  script.motion_changed();
+  return 0;
+}
+
+int remove_object(const Arguments& given) {
+  Script& script = script_of(given.lua());
+  script.simulation()->remove(object_of(given));
   script.state_changed();
   return 0;
 }
@@ -196,15 +200,13 @@ Field vector_field(const char* name, const char* unit, const char* meaning, doub
   return field(name, Kind::kVector, unit, meaning).between(-most, most);
 }
 
+const std::string kCrate =
+    "local crate = spawn{model = shape.box{size = {0.2, 0.2, 0.2}, cells = {2, 2, 2},\n"
+    "                                      material = \"spruce\"}, position = {0, 1, 0}}\n";
+
 }  // namespace
 
-std::vector<ApiFunction> thing_functions() {
-  const std::string kCrate =
-      "local crate = spawn{model = shape.box{size = {0.2, 0.2, 0.2}, cells = {2, 2, 2},\n"
-      "                                      material = \"spruce\"}, position = {0, 1, 0}}\n";
-  const auto in_tick = [&](const std::string& code) {
-    return kCrate + "function on_tick() " + code + " end";
-  };
+std::vector<ApiFunction> spawn_functions() {
   return {
       {"",
        "spawn",
@@ -220,113 +222,130 @@ std::vector<ApiFunction> thing_functions() {
             .optional()},
        "object",
        kCrate + "assert(crate:name() == \"box\")",
-       spawn},
-      {"object",
-       "name",
-       "Its name.",
-       {},
-       "string",
-       kCrate + "assert(crate:name() == \"box\")",
-       name_of},
-      {"object",
-       "position",
-       "The centre of mass of its pieces, m.",
-       {},
-       "vec",
-       in_tick("assert(crate:position().y > 0)"),
-       position_of,
-       true},
-      {"object",
-       "velocity",
-       "That of the centre of mass of its pieces, m/s.",
-       {},
-       "vec",
-       in_tick("print(crate:velocity())"),
-       velocity_of,
-       true},
-      {"object",
-       "mass",
-       "Of its pieces, kg: less once points came off.",
-       {},
-       "number",
-       in_tick("assert(crate:mass() > 0)"),
-       mass_of,
-       true},
-      {"object",
-       "energy",
-       "Kinetic, of its pieces, without vibration, J.",
-       {},
-       "number",
-       in_tick("assert(crate:energy() >= 0)"),
-       energy_of,
-       true},
-      {"object",
-       "pieces",
-       "How many pieces it is in.",
-       {},
-       "integer",
-       in_tick("assert(crate:pieces() == 1)"),
-       count_pieces,
-       true},
-      {"object",
-       "is_flexible",
-       "Is any piece of it a lattice just now?",
-       {},
-       "boolean",
-       in_tick("assert(not crate:is_flexible())"),
-       is_flexible,
-       true},
-      {"object",
-       "bounds",
-       "The lowest and the highest corner of the box around its points, m. Costs its size.",
-       {},
-       "vec, vec",
-       in_tick("local low, high = crate:bounds() assert(low.y < high.y)"),
-       bounds_now,
-       true},
-      {"object",
-       "broken",
-       "How many of its springs are broken. Costs its size.",
-       {},
-       "integer",
-       in_tick("assert(crate:broken() == 0)"),
-       count_broken,
-       true},
-      {"object",
-       "strain",
-       "The largest stretch of a spring, as a share. Costs its size.",
-       {},
-       "number",
-       in_tick("assert(crate:strain() < 1)"),
-       largest_strain,
-       true},
-      {"object",
-       "model",
-       "A model of it as it is now, to be changed, glued and spawned again. Costs its size.",
-       {},
-       "model",
-       in_tick("if time() == 0 then assert(crate:model():mass() > 0) end"),
-       give_model_now,
-       true},
-      {"object",
-       "push",
-       "Pushes it, the piece that is nearest, at a place.",
-       {vector_field("impulse", "N s", "that it gets", 1e9),
-        vector_field("at", "m", "where; at its centre without it", kMostMetres).optional()},
-       "",
-       kCrate + "function on_start() crate:push{impulse = {1, 0, 0}} end",
-       push_object,
-       true},
-      {"object",
-       "throw",
-       "Sets how all of its pieces move.",
-       {vector_field("velocity", "m/s", "of each centre", kMostSpeed),
-        vector_field("spin", "rad/s", "about each centre", kMostSpeed)
-            .or_else(Vec3(0.0, 0.0, 0.0))},
-       "",
-       kCrate + "function on_start() crate:throw{velocity = {0, 3, 0}} end",
-       throw_object,
-       true}};
+       spawn}};
+}
+
+std::vector<ApiFunction> object_queries() {
+  const auto in_tick = [&](const std::string& code) {
+    return kCrate + "function on_tick() " + code + " end";
+  };
+  return {{"object",
+           "name",
+           "Its name.",
+           {},
+           "string",
+           kCrate + "assert(crate:name() == \"box\")",
+           name_of},
+          {"object",
+           "position",
+           "The centre of mass of its pieces, m.",
+           {},
+           "vec",
+           in_tick("assert(crate:position().y > 0)"),
+           position_of,
+           true},
+          {"object",
+           "velocity",
+           "That of the centre of mass of its pieces, m/s.",
+           {},
+           "vec",
+           in_tick("print(crate:velocity())"),
+           velocity_of,
+           true},
+          {"object",
+           "mass",
+           "Of its pieces, kg: less once points came off.",
+           {},
+           "number",
+           in_tick("assert(crate:mass() > 0)"),
+           mass_of,
+           true},
+          {"object",
+           "energy",
+           "Kinetic, of its pieces, without vibration, J.",
+           {},
+           "number",
+           in_tick("assert(crate:energy() >= 0)"),
+           energy_of,
+           true},
+          {"object",
+           "pieces",
+           "How many pieces it is in.",
+           {},
+           "integer",
+           in_tick("assert(crate:pieces() == 1)"),
+           count_pieces,
+           true},
+          {"object",
+           "is_flexible",
+           "Is any piece of it a lattice just now?",
+           {},
+           "boolean",
+           in_tick("assert(not crate:is_flexible())"),
+           is_flexible,
+           true},
+          {"object",
+           "bounds",
+           "The lowest and the highest corner of the box around its points, m. Costs its size.",
+           {},
+           "vec, vec",
+           in_tick("local low, high = crate:bounds() assert(low.y < high.y)"),
+           bounds_now,
+           true},
+          {"object",
+           "broken",
+           "How many of its springs are broken. Costs its size.",
+           {},
+           "integer",
+           in_tick("assert(crate:broken() == 0)"),
+           count_broken,
+           true},
+          {"object",
+           "strain",
+           "The largest stretch of a spring, as a share. Costs its size.",
+           {},
+           "number",
+           in_tick("assert(crate:strain() < 1)"),
+           largest_strain,
+           true},
+          {"object",
+           "model",
+           "A model of it as it is now, to be changed, glued and spawned again. Costs its size.",
+           {},
+           "model",
+           in_tick("if time() == 0 then assert(crate:model():mass() > 0) end"),
+           give_model_now,
+           true}};
+}
+
+std::vector<ApiFunction> object_actions() {
+  return {{"object",
+           "push",
+           "Pushes it, the piece that is nearest, at a place.",
+           {vector_field("impulse", "N s", "that it gets", 1e9),
+            vector_field("at", "m", "where; at its centre without it", kMostMetres).optional()},
+           "",
+           kCrate + "function on_start() crate:push{impulse = {1, 0, 0}} end",
+           push_object,
+           true},
+          {"object",
+           "throw",
+           "Sets how all of its pieces move.",
+           {vector_field("velocity", "m/s", "of each centre", kMostSpeed),
+            vector_field("spin", "rad/s", "about each centre", kMostSpeed)
+                .or_else(Vec3(0.0, 0.0, 0.0))},
+           "",
+           kCrate + "function on_start() crate:throw{velocity = {0, 3, 0}} end",
+           throw_object,
+           true},
+          {"object",
+           "remove",
+           "Takes it out of the world with all of its pieces and its dust.",
+           {},
+           "",
+           kCrate + "function on_start() crate:remove() end",
+           remove_object,
+           true}};
 }
 
 }  // namespace limber::demos

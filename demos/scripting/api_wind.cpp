@@ -7,7 +7,6 @@
 namespace limber::demos {
 namespace {
 
-constexpr double kMostMetres = 1e4;
 constexpr double kMostStrength = 1e6;
 constexpr std::size_t kMostFlows = 1000;
 

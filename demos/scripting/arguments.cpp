@@ -97,11 +97,12 @@ class Check {
   }
 
   void check_vector(int index) const {
-    if (!is_vector(lua_, index)) {
+    const std::optional<Vec3> given = vector_at(lua_, index);
+    if (!given) {
       if (lua_istable(lua_, index)) complain("no list of three numbers");
       complain_of_kind();
     }
-    const Vec3 v = to_vector(lua_, index);
+    const Vec3& v = *given;
     if (!v.allFinite()) complain("not finite");
     if (field_.kind == Kind::kDirection && !(v.norm() > 0.0)) complain("zero");
     if (field_.kind == Kind::kDirection || field_.kind == Kind::kPath) return;
@@ -195,52 +196,65 @@ class Check {
                          nearest_name(fields, name)));
 }
 
-const Field& field_named(lua_State* lua, const std::vector<Field>& fields, const std::string& where,
-                         std::string_view name) {
-  for (const Field& f : fields) {
-    if (f.name == name) return f;
-  }
-  complain_of_name(lua, fields, where, std::string(name));
+// The place of a name among the fields; none of that name: their number.
+std::size_t place_of(const std::vector<Field>& fields, std::string_view name) {
+  std::size_t place = 0;
+  while (place < fields.size() && fields[place].name != name) ++place;
+  return place;
 }
 
-// The names in a table, ascending: Lua's own order differs from run to run.
-std::vector<std::string_view> names_given(lua_State* lua, int table,
-                                          const std::vector<Field>& fields,
-                                          const std::string& where) {
-  std::vector<std::string_view> names;
+// Of names that are no fields, the first in the alphabet: Lua's own order differs from run to run.
+[[noreturn]] void complain_of_unknown_name(lua_State* lua, int table,
+                                           const std::vector<Field>& fields,
+                                           const std::string& where) {
+  std::string first;
   for (lua_pushnil(lua); lua_next(lua, table) != 0; lua_pop(lua, 1)) {
     if (lua_type(lua, -2) != LUA_TSTRING) {
       raise(lua, fmt::format("{}: it takes named fields; write {}{{{} = ...}}", where, where,
                              fields.empty() ? "name" : fields.front().name));
     }
     std::size_t length = 0;
-    const char* const name = lua_tolstring(lua, -2, &length);
-    names.emplace_back(name, length);
+    const char* const text = lua_tolstring(lua, -2, &length);
+    const std::string_view name(text, length);
+    if (place_of(fields, name) == fields.size() && (first.empty() || name < first)) first = name;
   }
-  std::ranges::sort(names);
-  return names;
+  complain_of_name(lua, fields, where, first);
 }
 
-void check_given(lua_State* lua, int table, const std::vector<Field>& fields,
+// Which fields the table has: one bit each.
+std::uint64_t fields_given(lua_State* lua, int table, const std::vector<Field>& fields,
+                           const std::string& where) {
+  std::uint64_t given = 0;
+  for (lua_pushnil(lua); lua_next(lua, table) != 0; lua_pop(lua, 1)) {
+    std::size_t place = fields.size();
+    if (lua_type(lua, -2) == LUA_TSTRING) {
+      std::size_t length = 0;
+      const char* const name = lua_tolstring(lua, -2, &length);
+      place = place_of(fields, {name, length});
+    }
+    if (place == fields.size()) complain_of_unknown_name(lua, table, fields, where);
+    given |= std::uint64_t{1} << place;
+  }
+  return given;
+}
+
+void check_given(lua_State* lua, int table, const std::vector<Field>& fields, std::uint64_t given,
                  const std::string& where) {
-  for (const std::string_view name : names_given(lua, table, fields, where)) {
-    const Field& f = field_named(lua, fields, where, name);
-    lua_getfield(lua, table, f.name.c_str());
-    Check(lua, -1, f, where).run();
+  for (std::size_t place = 0; place < fields.size(); ++place) {
+    if (!(given >> place & 1)) continue;
+    lua_getfield(lua, table, fields[place].name.c_str());
+    Check(lua, -1, fields[place], where).run();
     lua_pop(lua, 1);
   }
 }
 
-void require_complete(lua_State* lua, int table, const std::vector<Field>& fields,
+void require_complete(lua_State* lua, const std::vector<Field>& fields, std::uint64_t given,
                       const std::string& where) {
-  for (const Field& f : fields) {
-    if (!std::holds_alternative<Field::Required>(f.otherwise)) continue;
-    const bool missing = table == 0 || lua_getfield(lua, table, f.name.c_str()) == LUA_TNIL;
-    if (table != 0) lua_pop(lua, 1);
-    if (missing) {
-      raise(lua,
-            fmt::format("{}: '{}' is missing; give {}: {}", where, f.name, wanted(f), f.meaning));
-    }
+  for (std::size_t place = 0; place < fields.size(); ++place) {
+    const Field& f = fields[place];
+    if (given >> place & 1 || !std::holds_alternative<Field::Required>(f.otherwise)) continue;
+    raise(lua,
+          fmt::format("{}: '{}' is missing; give {}: {}", where, f.name, wanted(f), f.meaning));
   }
 }
 
@@ -261,20 +275,21 @@ Arguments::Arguments(lua_State* lua, int index, const std::vector<Field>& fields
     if (lua_getmetatable(lua, table_)) {
       raise(lua, fmt::format("{}: its table has a metatable; give a plain one", where));
     }
-    check_given(lua, table_, fields, where);
+    given_ = fields_given(lua, table_, fields, where);
+    check_given(lua, table_, fields, given_, where);
   }
-  require_complete(lua, table_, fields, where);
+  require_complete(lua, fields, given_, where);
 }
 
 const Field& Arguments::field_of(const char* name) const {
-  return field_named(lua_, fields_, where_, name);
+  const std::size_t place = place_of(fields_, name);
+  if (place < fields_.size()) return fields_[place];
+  complain_of_name(lua_, fields_, where_, name);
 }
 
 bool Arguments::given(const char* name) const {
-  if (table_ == 0) return false;
-  const bool there = lua_getfield(lua_, table_, name) != LUA_TNIL;
-  lua_pop(lua_, 1);
-  return there;
+  const std::size_t place = place_of(fields_, name);
+  return place < fields_.size() && (given_ >> place & 1) != 0;
 }
 
 bool Arguments::has(const char* name) const {
@@ -282,7 +297,7 @@ bool Arguments::has(const char* name) const {
 }
 
 void Arguments::push(const char* name) const {
-  if (table_ == 0) {
+  if (!given(name)) {
     lua_pushnil(lua_);
   } else {
     lua_getfield(lua_, table_, name);
@@ -290,28 +305,26 @@ void Arguments::push(const char* name) const {
 }
 
 double Arguments::number(const char* name) const {
+  if (!given(name)) return std::get<double>(field_of(name).otherwise);
   push(name);
-  const bool there = !lua_isnil(lua_, -1);
   const double value = lua_tonumber(lua_, -1);
   lua_pop(lua_, 1);
-  return there ? value : std::get<double>(field_of(name).otherwise);
+  return value;
 }
 
 int Arguments::whole(const char* name) const { return static_cast<int>(number(name)); }
 
 bool Arguments::flag(const char* name) const {
+  if (!given(name)) return std::get<bool>(field_of(name).otherwise);
   push(name);
-  const bool there = !lua_isnil(lua_, -1), value = lua_toboolean(lua_, -1);
+  const bool value = lua_toboolean(lua_, -1);
   lua_pop(lua_, 1);
-  return there ? value : std::get<bool>(field_of(name).otherwise);
+  return value;
 }
 
 std::string Arguments::text(const char* name) const {
+  if (!given(name)) return std::get<std::string>(field_of(name).otherwise);
   push(name);
-  if (lua_isnil(lua_, -1)) {
-    lua_pop(lua_, 1);
-    return std::get<std::string>(field_of(name).otherwise);
-  }
   std::size_t length = 0;
   const char* const text = lua_tolstring(lua_, -1, &length);
   std::string value(text, length);
@@ -320,9 +333,9 @@ std::string Arguments::text(const char* name) const {
 }
 
 Vec3 Arguments::vector(const char* name) const {
+  if (!given(name)) return std::get<Vec3>(field_of(name).otherwise);
   push(name);
-  const bool there = !lua_isnil(lua_, -1);
-  const Vec3 value = there ? to_vector(lua_, -1) : std::get<Vec3>(field_of(name).otherwise);
+  const Vec3 value = to_vector(lua_, -1);
   lua_pop(lua_, 1);
   return value;
 }

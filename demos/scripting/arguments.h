@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <lua.hpp>
 #include <string>
 #include <vector>
@@ -73,7 +74,8 @@ class Arguments {
   bool given(const char* name) const;
 
   lua_State* lua_;
-  int table_;  // 0: none
+  int table_;                // 0: none
+  std::uint64_t given_ = 0;  // a bit for each field, in their order: at most 64
   const std::vector<Field>& fields_;
   const std::string& where_;
 };

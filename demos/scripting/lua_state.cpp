@@ -11,6 +11,9 @@ namespace {
 
 constexpr int kInterval = 1000;                  // instructions between two counts
 constexpr std::size_t kBytesPerStep = 64;        // copied in about the time of an instruction
+// Garbage is looked for when there is this much more than was left the last time, %: a call's tables
+// die at once, and going through all that lives costs as much as hundreds of calls.
+constexpr int kGrowthUntilCollected = 400;
 constexpr std::size_t kMostUncharged = 1 << 20;  // bytes; more are charged at once
 
 // What our functions reach from a lua_State.
@@ -50,6 +53,7 @@ LuaState::LuaState(const ScriptLimits& limits) : memory_limit_(limits.memory_byt
   if (!lua_) throw std::bad_alloc();
   links(lua_) = new Links{this};
   lua_sethook(lua_, on_count, LUA_MASKCOUNT, kInterval);
+  lua_gc(lua_, LUA_GCINC, kGrowthUntilCollected, 0, 0);
 }
 
 LuaState::~LuaState() {

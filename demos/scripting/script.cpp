@@ -102,7 +102,12 @@ void Script::run_main() {
   state_.allow(settings_.limits.load_steps, "setting the scene up");
   const bool good = state_.protect([this](lua_State* lua) {
     load(lua, source_.name, source_.text);
-    lua_call(lua, 0, 0);
+    if (source_.model) {
+      push(lua, std::make_shared<PhysicalModel>(*source_.model));
+    } else {
+      lua_pushnil(lua);
+    }
+    lua_call(lua, 1, 0);
     refuse_unknown_callbacks(lua);
   });
   if (!good) throw as_input_error();
@@ -171,8 +176,9 @@ int Script::require(lua_State* lua) {
   if (lua_getfield(lua, -1, name.c_str()) != LUA_TNIL) return 1;
   std::string message;
   try {
-    const ScriptSource module =
-        module_beside(script.source_, name, script.settings_.limits.file_bytes);
+    const std::string path = module_path(name);
+    ScriptSource module = script_in_file(script.file(path), script.settings_.limits.file_bytes);
+    module.name = path;
     script.load(lua, module.name, module.text);
   } catch (const InputError& error) {
     message = error.diagnostic.text();
@@ -227,6 +233,7 @@ void Script::take_body() {
 }
 
 std::filesystem::path Script::file(const std::string& name) const {
+  if (settings_.on_file) settings_.on_file(source_.folder / name);
   return file_beside(source_, name);
 }
 

@@ -5,6 +5,7 @@
 #include <iosfwd>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,8 @@ struct ScriptSettings {
   std::vector<InputEvent> inputs = {};
   std::ostream* printed = nullptr;  // where print() goes; null: nowhere
   bool silent_set_up = false;       // it was printed before: the script runs once more
+  // Called before a module, mesh or model is read that the script names, be it there or not.
+  std::function<void(const std::filesystem::path&)> on_file = {};
 };
 
 // What a script says about itself by scene{}.
@@ -61,6 +64,7 @@ class Script : public Behaviour {
   void require_setting_up(const std::string& where);
   Simulation& require_running(const std::string& where);
   Simulation* simulation() { return simulation_; }  // null while the scene is set up
+  const Scene& scene_now() const { return simulation_ ? simulation_->scene() : scene_; }
 
   void declare(const std::string& summary, std::vector<Parameter> parameters);  // raises
   double parameter(const std::string& name) const { return values_.at(name); }
@@ -70,7 +74,7 @@ class Script : public Behaviour {
   void take_object();
   void take_body();
 
-  // A file in the scene's folder or below. Throws InputError.
+  // A file in the scene's folder or below, to be read at once. Throws InputError.
   std::filesystem::path file(const std::string& name) const;
 
   // The function on top of the stack, which it takes, is called at this simulated time, and then
@@ -78,9 +82,13 @@ class Script : public Behaviour {
   void add_timer(double time_s, std::optional<double> period);
   void add_input(InputEvent input);
 
-  // Of the present tick; put together when it is first asked for.
-  const std::vector<bullet::PieceView>& pieces();
+  // The pieces of an object as they are just now; those of all are put together when they are
+  // first asked for in a tick.
+  std::span<const bullet::PieceView> pieces_of(std::size_t object);
+  // Where they are, after pushes as well: these change only how they move.
+  std::span<const bullet::PieceView> places_of(std::size_t object);
   void state_changed() { pieces_.reset(); }
+  void motion_changed() { pushed_ = true; }
 
   // The wind, which takes effect with the next tick.
   Air& air();
@@ -125,7 +133,9 @@ class Script : public Behaviour {
   std::size_t next_input_ = 0;
   std::optional<Air> air_;
   bool air_changed_ = false;
-  std::optional<std::vector<bullet::PieceView>> pieces_;
+  std::optional<std::vector<bullet::PieceView>> pieces_;  // by object
+  std::vector<std::size_t> first_piece_;                  // of each object, and the end
+  bool pushed_ = false;                                   // since pieces_ were put together
   double points_left_;
   std::size_t objects_left_, bodies_left_, print_left_;
   std::size_t switches_seen_ = 0, breaks_seen_ = 0, splits_seen_ = 0;

@@ -198,14 +198,15 @@ void Script::tell_contacts(lua_State* lua) {
   lua_pop(lua, 1);
   std::vector<std::pair<bullet::StageThing, bullet::StageThing>> now;
   for (const bullet::StageContact& contact : simulation_->stage().contacts()) {
-    auto pair = std::minmax(contact.first, contact.second);
-    now.emplace_back(pair.first, pair.second);
+    // Whichever is the lattice: the floor last, bodies before objects, in the order they were made.
+    auto [thing, other] = std::pair(std::minmax(contact.first, contact.second));
+    now.emplace_back(thing, other);
     if (std::ranges::binary_search(touching_, now.back())) continue;
-    const bool floor_first = contact.first.kind == bullet::StageThing::Kind::kFloor;
+    const bool floor_first = thing.kind == bullet::StageThing::Kind::kFloor;
     push_callback(lua, "on_contact");
     Event(lua)
-        .thing("thing", floor_first ? contact.second : contact.first)
-        .thing("other", floor_first ? contact.first : contact.second)
+        .thing("thing", floor_first ? other : thing)
+        .thing("other", floor_first ? thing : other)
         .value("at", contact.at)
         .number("impulse", contact.impulse);
     lua_call(lua, 1, 0);
@@ -214,9 +215,26 @@ void Script::tell_contacts(lua_State* lua) {
   touching_ = std::move(now);
 }
 
-const std::vector<bullet::PieceView>& Script::pieces() {
-  if (!pieces_) pieces_ = simulation_->stage().co_simulation().pieces();
-  return *pieces_;
+std::span<const bullet::PieceView> Script::places_of(std::size_t object) {
+  if (!pieces_) {
+    const bullet::CoSimulation& limber = simulation_->stage().co_simulation();
+    pieces_ = limber.pieces();
+    pushed_ = false;
+    std::ranges::stable_sort(*pieces_, {}, &bullet::PieceView::object);
+    first_piece_.assign(1, 0);
+    for (std::size_t o = 0; o < limber.object_count(); ++o) {
+      std::size_t end = first_piece_.back();
+      while (end < pieces_->size() && (*pieces_)[end].object == o) ++end;
+      first_piece_.push_back(end);
+    }
+  }
+  return std::span(*pieces_).subspan(first_piece_[object],
+                                     first_piece_[object + 1] - first_piece_[object]);
+}
+
+std::span<const bullet::PieceView> Script::pieces_of(std::size_t object) {
+  if (pushed_) state_changed();
+  return places_of(object);
 }
 
 }  // namespace limber::demos

@@ -7,6 +7,9 @@
 #include <memory>
 #include <sstream>
 
+#include "core/model/validate.h"
+#include "core/storage/model_file.h"
+
 namespace limber::demos {
 namespace {
 
@@ -24,7 +27,31 @@ Scene build(const ScriptSource& source, const ParameterValues& values,
   return scene;
 }
 
+// With the model that the script gets.
+Scene build_drop(const std::string& model_file, const ParameterValues& values,
+                 ScriptSettings settings) {
+  const auto model = std::make_shared<const PhysicalModel>(read_model(model_file));
+  if (model->points.empty()) {
+    throw InputError({"scene " + model->name, "the model has no points", "give one that has"});
+  }
+  require_valid(*model);
+  settings.limits.points += model->points.size();  // they are the user's, not the script's
+  ScriptSource source = drop_script();
+  source.model = model;
+  Scene scene = build(source, values, settings);
+  scene.name = model->name;
+  return scene;
+}
+
 }  // namespace
+
+SceneEntry drop_entry(const std::string& model_file, const ScriptSettings& settings) {
+  const ScriptHeader header = read_header(drop_script(), settings);
+  return {model_file, header.summary, header.parameters,
+          [model_file, settings](const ParameterValues& values) {
+            return build_drop(model_file, values, settings);
+          }};
+}
 
 SceneEntry script_entry(const ScriptSource& source, const ScriptSettings& settings) {
   const ScriptHeader header = read_header(source, settings);

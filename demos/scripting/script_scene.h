@@ -9,6 +9,10 @@ namespace limber::demos {
 // with file, line and traceback.
 SceneEntry script_entry(const ScriptSource& source, const ScriptSettings& settings);
 
+// A model file as a scene: the model falls on the floor. It is read, and has to be valid, when the
+// scene is built: throws InputError then.
+SceneEntry drop_entry(const std::string& model_file, const ScriptSettings& settings);
+
 // build_scene() of scene.h, with what scripts get.
 Scene build_scene(const std::string& name, const ParameterValues& changes,
                   const ScriptSettings& settings);

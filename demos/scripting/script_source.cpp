@@ -66,6 +66,8 @@ std::vector<std::string> shipped_scripts() {
   return names;
 }
 
+ScriptSource drop_script() { return {assets::kDropScene.name, assets::kDropScene.text, {}}; }
+
 fs::path file_beside(const ScriptSource& source, const std::string& name) {
   if (source.folder.empty()) {
     throw InputError({name, "a scene that ships with Limber has no folder to read it from",
@@ -83,18 +85,14 @@ fs::path file_beside(const ScriptSource& source, const std::string& name) {
   return file;
 }
 
-ScriptSource module_beside(const ScriptSource& source, const std::string& module,
-                           std::size_t most_bytes) {
+std::string module_path(const std::string& module) {
   if (!is_module_name(module)) {
     throw InputError({"require", "'" + module + "' is no name of a module",
                       "give letters, digits, _ and dots: parts.leaf is the file parts/leaf.lua"});
   }
   std::string path = module;
   std::ranges::replace(path, '.', '/');
-  path += ".lua";
-  ScriptSource found = script_in_file(file_beside(source, path), most_bytes);
-  found.name = path;
-  return found;
+  return path + ".lua";
 }
 
 }  // namespace limber::demos

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "demos/scripting/lua_state.h"
@@ -132,31 +133,28 @@ void open_vectors(lua_State* lua) {
   lua_register(lua, "vec", make);
 }
 
-bool is_vector(lua_State* lua, int index) {
-  if (as<Vec3>(lua, index)) return true;
-  if (!lua_istable(lua, index) || lua_rawlen(lua, index) != 3) return false;
-  const int table = lua_absindex(lua, index);
-  bool numbers = true;
-  for (int i = 1; i <= 3; ++i) {
-    numbers = lua_rawgeti(lua, table, i) == LUA_TNUMBER && numbers;
-    lua_pop(lua, 1);
+std::optional<Vec3> vector_at(lua_State* lua, int index) {
+  if (!lua_istable(lua, index)) {
+    const Vec3* const v = as<Vec3>(lua, index);
+    return v ? std::optional<Vec3>(*v) : std::nullopt;
   }
-  return numbers;
-}
-
-Vec3 to_vector(lua_State* lua, int index) {
-  if (const Vec3* v = as<Vec3>(lua, index)) return *v;
-  if (!is_vector(lua, index)) {
-    raise(lua, "a vector changed while it was read; leave it alone in callbacks");
-  }
+  if (lua_rawlen(lua, index) != 3) return {};
   const int table = lua_absindex(lua, index);
   Vec3 v;
+  bool numbers = true;
   for (int i = 0; i < 3; ++i) {
-    lua_rawgeti(lua, table, i + 1);
+    numbers = lua_rawgeti(lua, table, i + 1) == LUA_TNUMBER && numbers;
     v[i] = lua_tonumber(lua, -1);
-    lua_pop(lua, 1);
   }
-  return v;
+  lua_pop(lua, 3);
+  return numbers ? std::optional<Vec3>(v) : std::nullopt;
+}
+
+bool is_vector(lua_State* lua, int index) { return vector_at(lua, index).has_value(); }
+
+Vec3 to_vector(lua_State* lua, int index) {
+  if (const std::optional<Vec3> v = vector_at(lua, index)) return *v;
+  raise(lua, "a vector changed while it was read; leave it alone in callbacks");
 }
 
 }  // namespace limber::demos

@@ -50,6 +50,14 @@ TEST(ScriptDocuments, EveryStepOfTheTutorialRuns) {
   }
 }
 
+TEST(ScriptDocuments, TheScriptInTheReadmeBreaksItsPot) {
+  const std::vector<std::string> scripts = scripts_in(document("../README.md"));
+  ASSERT_EQ(scripts.size(), 1u);
+  const ScriptRun done = run_of_text(scripts[0], 1.0);
+  EXPECT_THAT(done.printed, testing::MatchesRegex("broke at 0.4[0-9] s, into [0-9]+ pieces\n"));
+  EXPECT_GT(done.result.fragments, 4u);
+}
+
 TEST(ShippedScenes, AllRun) {
   for (const SceneEntry& scene : scene_library()) {
     SCOPED_TRACE(scene.name);

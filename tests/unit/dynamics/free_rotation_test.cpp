@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace limber {
@@ -75,6 +76,28 @@ TEST(RotateFreely, IsOfFourthOrder) {
   const double of_halves = after_a_second(300).angularDistance(exact);
   EXPECT_LT(error, 1e-7);
   EXPECT_NEAR(std::log2(error / of_halves), 4.0, 0.3);
+}
+
+// What turns faster than anything does is not followed any more; that it does not take for ever, and
+// keeps its angular momentum, is what is left.
+TEST(RotateFreely, EndsAtAnySpeed) {
+  const Vec3 moments(1.0, 2.0, 3.0);
+  const auto momentum_of = [&](const Eigen::Quaterniond& q, const Vec3& omega) {
+    return Vec3(q * moments.cwiseProduct(q.conjugate() * omega));
+  };
+  for (double speed : {1e6, 1e12, 1e100}) {
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    Vec3 omega = speed * Vec3(0.5, 5.0, 0.3);
+    const Vec3 before = momentum_of(q, omega);
+    rotate_freely(q, omega, moments, 1.0);
+    EXPECT_LT((momentum_of(q, omega) - before).norm(), 1e-9 * before.norm()) << speed;
+  }
+  for (double speed :
+       {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    Vec3 omega = Vec3::Constant(speed);
+    rotate_freely(q, omega, moments, 1.0);  // whatever comes of it
+  }
 }
 
 TEST(RotateFreely, BackwardsIsTheWayBack) {
