@@ -195,15 +195,30 @@ void CoSimulation::Impl::split(const Piece& piece, std::vector<std::vector<std::
   splits_.push_back(std::move(record));
 }
 
+// A burst has tens of thousands of breaks and a thousand pieces: not each in each.
 void CoSimulation::Impl::name_pieces_of_breaks() {
+  if (break_points_.empty()) return;
   const std::size_t first = breaks_.size() - break_points_.size();
+  std::vector<std::pair<std::int32_t, std::size_t>> broken;  // point, which break
   for (std::size_t i = 0; i < break_points_.size(); ++i) {
-    for (const auto& piece : pieces_) {
-      if (piece->object != breaks_[first + i].object) continue;
-      const std::vector<std::int32_t>& points = piece->points;
-      if (!std::binary_search(points.begin(), points.end(), break_points_[i])) continue;
-      breaks_[first + i].piece = piece->id;
-      break;
+    broken.emplace_back(break_points_[i], first + i);
+  }
+  std::sort(broken.begin(), broken.end());
+  const auto from = [&](std::int32_t p) {
+    return std::lower_bound(broken.begin(), broken.end(), std::pair(p, std::size_t{0}));
+  };
+  for (const auto& piece : pieces_) {
+    const std::vector<std::int32_t>& points = piece->points;
+    const auto begin = from(points.front()), end = from(points.back() + 1);
+    if (static_cast<std::size_t>(end - begin) <= points.size()) {
+      for (auto b = begin; b != end; ++b) {
+        if (!std::binary_search(points.begin(), points.end(), b->first)) continue;
+        breaks_[b->second].piece = piece->id;
+      }
+    } else {
+      for (std::int32_t p : points) {
+        for (auto b = from(p); b != end && b->first == p; ++b) breaks_[b->second].piece = piece->id;
+      }
     }
   }
   break_points_.clear();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "bullet_bridge/conversions.h"
 #include "bullet_bridge/convex_hull.h"

@@ -164,8 +164,13 @@ bool StencilSprings::has(std::int32_t edge) const {
 void StencilSprings::look_at(const Lattice& lattice, std::int32_t point,
                              std::vector<std::int32_t>& overstretched_edges) const {
   for (std::int32_t e : lattice.point_edges[point]) {
-    if (!has(e) || lattice.active_of_edge[e] < 0 || lattice.breaking.edge_broken[e]) continue;
-    if (is_overstretched(lattice, e)) {
+    if (lattice.active_of_edge[e] < 0 || lattice.breaking.edge_broken[e]) continue;
+    // Flags go by the weakest spring of a class: those of a strong piece with weak seams come in
+    // every substep, and find nothing.
+    const bool overstretched = is_overstretched(lattice, e);
+    if (!overstretched && length_of(lattice, e) <= quanta_.longest_measurable()) continue;
+    if (!has(e)) continue;
+    if (overstretched) {
       overstretched_edges.push_back(e);
     } else {
       limber::require_measurable(lattice, e, quanta_);
