@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "tests/bridge/measure.h"
@@ -78,7 +79,9 @@ TEST(SwitchingUnderLoad, AThousandTimesSinksRisesAndDriftsNoFarther) {
   EXPECT_GT(lowest.front(), -0.005);
   EXPECT_NEAR(block.low(), 0.0, 0.002);
   EXPECT_NEAR(block.height_of_weight(), 0.4, 0.003);
-  EXPECT_LT((block.simulation.pieces().at(0).motion.centre - start).norm(), 0.01);
+  // A random walk along the ground, 0.6 mm a switch at the most.
+  const Vec3 drift = block.simulation.pieces().at(0).motion.centre - start;
+  EXPECT_LT(drift.norm(), 0.0006 * std::sqrt(double{kSwitches}));
 }
 
 // The load goes while the block is rigid. What its contacts remember of it throws it nowhere.
