@@ -45,8 +45,9 @@ const std::set<std::string> kNotMetYet = {
     "block on a stack of three boxes",      "rigid cylinder, end first, on a block",
 };
 // Angular momentum to 1.4e-6, where 1e-6 is asked for: what Bullet's numbers round away. And a rope
-// that slides on at 0.09 m/s. And a block that falls on a cone's tip: 61 mm deep, 50 are asked for
-// (it was 49.9 before lattices flew on the parabola and came down there a little later).
+// that slides on at 0.09 m/s. And a block that lands on
+// a cone's tip: 61 mm deep where 50 are asked for (49.9 in an earlier version; the cause is not
+// known).
 const std::set<std::string> kNotMetInSingle = {"needle on a block at 20 m/s", "block on a cone",
                                                "rope over a square beam"};
 
