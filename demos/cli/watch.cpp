@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Between two looks at the files: soon enough for a person who saves and looks up.
-constexpr std::chrono::milliseconds kPause(200);
+constexpr std::chrono::milliseconds kLookPause(200);
 
 class Watch {
  public:
@@ -27,7 +27,7 @@ class Watch {
       if (interrupt_.came()) return;
       terminal_.out.flush();
       terminal_.err << "limber: waiting for a change; Ctrl-C ends" << std::endl;
-      while (!interrupt_.came() && !files_.changed()) std::this_thread::sleep_for(kPause);
+      while (!interrupt_.came() && !files_.changed()) std::this_thread::sleep_for(kLookPause);
       terminal_.err << (interrupt_.came() ? "" : "limber: it was saved, and runs again\n");
     }
   }
@@ -55,7 +55,7 @@ class Watch {
 
   bool ended_early() {
     if (interrupt_.came()) return true;
-    if (Clock::now() - looked_ < kPause) return false;
+    if (Clock::now() - looked_ < kLookPause) return false;
     looked_ = Clock::now();
     saved_ = files_.changed();
     return saved_;

@@ -91,9 +91,10 @@ TEST_P(WindLanding, IsThatOfTheLattice) {
   const Refined<Vec3> place{full.place, half.place, quarter.place};
   const Refined<Vec3> centre{full.centre, half.centre, quarter.centre};
   ASSERT_LT(time.error_of_limit(), 0.02 * time.error_of_quarter());
-  // m: what the lattice at a quarter of its substep is off by on its way down; what a second of
-  // Bullet's floats costs.
-  const double distance = quarter.speed * time.error_of_quarter() + place.error_of_quarter();
+  // m: what the lattice at its substep is off by on its way down, four times what it is at a
+  // quarter of it; what a second of Bullet's floats costs.
+  const double distance =
+      4.0 * (quarter.speed * time.error_of_quarter() + place.error_of_quarter());
   const double stored = by_precision(2e-5, 1e-9);
   EXPECT_LT(std::abs(switching.time - time.limit()),
             time.error_of_quarter() + stored / quarter.speed);
