@@ -143,7 +143,7 @@ void add_motions(Cases& cases, const Scheme& scheme, AtlasExtent extent) {
 // Numbers that no simulation can begin with, and some at the end of all numbers.
 void add_bad_inputs(Cases& cases, const Scheme& scheme, AtlasExtent) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kInf = std::numeric_limits<double>::infinity();
   StabilityCase base = case_of("bad input", scheme, StabilityModel::kBlock);
   base.in_range = false;
   const auto add = [&](double StabilityCase::*number, const Values& values) {
@@ -153,13 +153,13 @@ void add_bad_inputs(Cases& cases, const Scheme& scheme, AtlasExtent) {
       if (number == &StabilityCase::step) cases.back().choice = StepChoice::kSeconds;
     }
   };
-  add(&StabilityCase::stiffness, {kNan, kInfinity, -1.0, 1e300, 1e307, 1e-300});
-  add(&StabilityCase::damping_ratio, {kNan, kInfinity, -1.0, 1e300});
-  add(&StabilityCase::mass_ratio, {kNan, kInfinity, -1.0, 0.0, 1e-300, 1e300});
-  add(&StabilityCase::size, {kNan, kInfinity, -1.0, 0.0, 1e-300, 1e300});
-  add(&StabilityCase::place, {kNan, kInfinity, 1e17, 1e300});
-  add(&StabilityCase::speed, {kInfinity, 1e17, 1e300});
-  add(&StabilityCase::step, {kNan, kInfinity, -1.0, 0.0, 1e-300, 1e300});
+  add(&StabilityCase::stiffness, {kNan, kInf, -1.0, 1e300, 1e307, 1e-300});
+  add(&StabilityCase::damping_ratio, {kNan, kInf, -1.0, 1e300});
+  add(&StabilityCase::mass_ratio, {kNan, kInf, -1.0, 0.0, 1e-300, 1e300});
+  add(&StabilityCase::size, {kNan, kInf, -1.0, 0.0, 1e-300, 1e300});
+  add(&StabilityCase::place, {kNan, kInf, 1e17, 1e300});
+  add(&StabilityCase::speed, {kInf, 1e17, 1e300});
+  add(&StabilityCase::step, {kNan, kInf, -1.0, 0.0, 1e-300, 1e300});
 }
 
 }  // namespace

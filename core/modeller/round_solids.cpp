@@ -111,11 +111,11 @@ struct Capsule {
 // The length from a closed end that becomes half a ball. On a ball, half of it leads to where it is
 // pi/4 / sin(pi/4) of the radius; a tip is followed at least to half of the largest radius.
 double cap_length(const Meridian& meridian, bool high_end) {
-  constexpr int kSteps = 1024;
+  constexpr int kSlices = 1024;
   const bool both = meridian.low_closed() && meridian.high_closed();
   const double most = meridian.length() / (both ? 2.0 : 1.0);
-  for (int i = 1; i < kSteps; ++i) {
-    const double half = 0.5 * most * i / kSteps;
+  for (int i = 1; i < kSlices; ++i) {
+    const double half = 0.5 * most * i / kSlices;
     const double r = meridian.radius_near(high_end, half);
     if (half >= kPi / 4.0 * std::numbers::sqrt2 * r && r >= 0.5 * meridian.widest()) {
       return 2.0 * half;
