@@ -53,11 +53,11 @@ bool has_velocity_of(const btRigidBody& body, const ShadowBody& shadow) {
 
 // Bullet starts from a matrix, moved_by_bullet() from a quaternion.
 bool is_same_but_rounding(const btTransform& a, const btTransform& b) {
-  constexpr btScalar kRounding = 16 * SIMD_EPSILON;
+  constexpr btScalar kSame = 16 * SIMD_EPSILON;
   const btScalar size = btMax(b.getOrigin().length(), btScalar(1));
-  return (a.getOrigin() - b.getOrigin()).length() < kRounding * size &&
-         (a.getBasis() - b.getBasis()).getColumn(0).length() < kRounding &&
-         (a.getBasis() - b.getBasis()).getColumn(1).length() < kRounding;
+  return (a.getOrigin() - b.getOrigin()).length() < kSame * size &&
+         (a.getBasis() - b.getBasis()).getColumn(0).length() < kSame &&
+         (a.getBasis() - b.getBasis()).getColumn(1).length() < kSame;
 }
 
 void place(btRigidBody& body, const btTransform& pose) {

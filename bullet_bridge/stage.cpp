@@ -13,13 +13,6 @@ namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 namespace {
 
-// Anything that was added to the world: the floor, and bodies.
-struct Added {
-  OwnedShape shape;
-  Mat3 axes;  // of the body in the frame that it is spoken of in
-  std::unique_ptr<btRigidBody> body;
-};
-
 std::unique_ptr<btRigidBody> make_body(const StageBody& wanted, btCollisionShape& shape,
                                        const std::optional<PrincipalFrame>& frame = {}) {
   btVector3 inertia(0, 0, 0);
@@ -63,6 +56,13 @@ std::unique_ptr<btTypedConstraint> make_joint(const StageJoint& joint, btRigidBo
 }  // namespace
 
 struct Stage::World {
+  // Anything that was added to the world: the floor, and bodies.
+  struct Added {
+    OwnedShape shape;
+    Mat3 axes;  // of the body in the frame that it is spoken of in
+    std::unique_ptr<btRigidBody> body;
+  };
+
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
@@ -171,7 +171,7 @@ std::size_t Stage::add_body(const StageBody& body) {
   const std::size_t index = world_->bodies.size();
   made->setUserIndex(static_cast<int>(index));
   world_->world.addRigidBody(made.get());
-  world_->bodies.push_back(Added{std::move(shape), axes, std::move(made)});
+  world_->bodies.push_back(World::Added{std::move(shape), axes, std::move(made)});
   return index;
 }
 

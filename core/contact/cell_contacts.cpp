@@ -231,11 +231,8 @@ void CellContacts::push(Lattice& lattice, Held& held, double dt) const {
   if (press <= 0.0) return;
   const FaceForces forces = push_apart(held.contact, press);
   lattice.force[held.point] += forces.on_point;
-  lattice.touched[held.point] = 1;
   for (int i = 0; i < 3; ++i) {
-    const std::int32_t corner = lattice.face_corners[held.face][i];
-    lattice.force[corner] += forces.on_corners[i];
-    lattice.touched[corner] = 1;
+    lattice.force[lattice.face_corners[held.face][i]] += forces.on_corners[i];
   }
 }
 

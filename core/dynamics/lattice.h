@@ -119,11 +119,11 @@ void retire_object(Lattice& lattice, std::size_t object);
 // What the springs of an object are about to bear. The bound on its frequencies is that of the
 // shape at rest. Strain turns springs: their stiffness counts in new directions, and from a strain
 // of kSmallStrain on the vibrations of an undamped lattice feed one another at the full step.
-// Damping of kCalmingDampingRatio at the highest frequency keeps it stable up to motions of
+// Damping of kCalmingDampingRatio at the highest frequency keeps most of them stable up to
 // kCalmStrain (docs/limits.md has the numbers).
 enum class LargestStrain { kSmall, kAny };
 inline constexpr double kSmallStrain = 1e-3;
-inline constexpr double kCalmStrain = 0.1;
+inline constexpr double kCalmStrain = 0.2;
 inline constexpr double kCalmingDampingRatio = 0.01;
 
 // No shape has frequencies above this many times those of the shape at rest. k I bounds a spring's

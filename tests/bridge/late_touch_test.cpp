@@ -48,7 +48,8 @@ Strike strike(bool knocked) {
   const Block block = {.modulus = 1e5};  // they press one another for four ticks
   simulation.add(make_block(block, Vec3::Zero()));
   simulation.add(make_block(block, {0.305, 0.05, 0.02}, {-1.0, 0.0, 0.0}));
-  simulation.add(make_block(block, {50.0, 0.0, 0.0}));
+  // Softer: all have the step of the stiffest, and it is not to be this one, however strained.
+  simulation.add(make_block({.modulus = 1e4}, {50.0, 0.0, 0.0}));
   add_ball(world, 0.05, 1.0, {50.0 - 0.15 - 0.05 - 0.01, 0.0, 0.0});
   // Bullet finds balls in contact once they overlap: at the start of the third tick.
   const double away = 6.0 * 2.0 * kTick - 0.002;

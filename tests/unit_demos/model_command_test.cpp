@@ -133,7 +133,7 @@ TEST_F(ModelCommand, SaysWhatIsTooSoftToLandBeforeItLands) {
   const Said made =
       limber({"model", mesh_, "--material", "gelatine", "--spacing", "0.05", "-o", file_});
   ASSERT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("cells turn inside out"));
+  EXPECT_THAT(made.out, HasSubstr("cells are crushed"));
   const Said run = limber({"run", file_, "--seconds", "0.02", "--json", "-"});
   EXPECT_THAT(run.err, HasSubstr("note: " + file_ + ": box: it is too soft to land at 4.43 m/s"));
   EXPECT_THAT(nlohmann::json::parse(run.out)["notes"].dump(), HasSubstr("too soft"));
