@@ -147,7 +147,7 @@ void CellContacts::look(const Lattice& lattice) {
     is_strained_[c] = 0;
     const auto first = std::lower_bound(before.begin(), before.end(), c, of_cell);
     const auto last = std::lower_bound(first, before.end(), c + 1, of_cell);
-    if (lattice.breaking.cell_valid[c]) hold_what_is_low(lattice, c, {first, last});
+    hold_what_is_low(lattice, c, {first, last});
   }
 }
 
@@ -162,7 +162,7 @@ void CellContacts::find_strained_cells(const Lattice& lattice) {
     const double rest = s.rest_length * s.rest_length;
     if (square > kShort * rest && square < kLong * rest) continue;
     for (std::int32_t c : lattice.topology.edge_cells[lattice.active_edge[i]]) {
-      if (is_strained_[c]) continue;
+      if (is_strained_[c] || !lattice.breaking.cell_valid[c]) continue;
       is_strained_[c] = 1;
       strained_.push_back(c);
     }
