@@ -63,8 +63,8 @@ void CoSimulation::Impl::show_velocities(double dt) {
   }
 }
 
-// A joint that is new: Bullet has put its bodies on islands before this piece was one that it solves
-// (show_lattices()).
+// A joint that is new: Bullet has put its bodies on islands before this piece was one that it
+// solves (show_lattices()).
 void CoSimulation::Impl::wake_what_hangs_on(const Piece& piece) {
   for (btTypedConstraint* joint : joints_of(world_, piece.body())) {
     if (!joint->isEnabled()) continue;

@@ -8,7 +8,7 @@ namespace limber::bullet {
 inline namespace LIMBER_BULLET_PRECISION {
 namespace {
 
-constexpr double kFacing = 0.5;       // cosine of 60 degrees
+constexpr double kFacing = 0.5;      // cosine of 60 degrees
 constexpr double kSame = 1e-12;      // relative: two distances to one and the same point
 constexpr double kSamePlace = 1e-9;  // of a way: edges that triangles share
 constexpr double kGap = 1e-5;        // m between triangles that are meant to touch

@@ -6,8 +6,8 @@ namespace limber {
 namespace {
 
 constexpr double kLargestTurn = 0.05;  // rad a step; the error of a step goes with its fifth power
-// Steps of one call: 50 rad. What turns faster, 5e4 rad/s at a substep of a millisecond, is a blur or
-// a mistake; without a bound a call would take for ever.
+// Steps of one call: 50 rad. What turns faster, 5e4 rad/s at a substep of a millisecond, is a blur
+// or a mistake; without a bound a call would take for ever.
 constexpr double kMostSteps = 1000.0;
 
 Vec3 world_omega(const Eigen::Quaterniond& q, const Vec3& momentum, const Vec3& moments) {

@@ -128,7 +128,8 @@ int cli_main(int argc, const char* const* argv, std::ostream& out, std::ostream&
   } catch (const SimulationError& error) {
     return report(terminal, error.diagnostic, kSimulationFailed);
   } catch (const std::exception& error) {
-    return report(terminal, {"internal error", error.what(), "please report it with the command line"},
+    return report(terminal,
+                  {"internal error", error.what(), "please report it with the command line"},
                   kSimulationFailed);
   }
 }

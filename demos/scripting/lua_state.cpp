@@ -9,10 +9,10 @@
 namespace limber::demos {
 namespace {
 
-constexpr int kInterval = 1000;                  // instructions between two counts
-constexpr std::size_t kBytesPerStep = 64;        // copied in about the time of an instruction
-// Garbage is looked for when there is this much more than was left the last time, %: a call's tables
-// die at once, and going through all that lives costs as much as hundreds of calls.
+constexpr int kInterval = 1000;            // instructions between two counts
+constexpr std::size_t kBytesPerStep = 64;  // copied in about the time of an instruction
+// Garbage is looked for when there is this much more than was left the last time, %: a call's
+// tables die at once, and going through all that lives costs as much as hundreds of calls.
 constexpr int kGrowthUntilCollected = 400;
 constexpr std::size_t kMostUncharged = 1 << 20;  // bytes; more are charged at once
 

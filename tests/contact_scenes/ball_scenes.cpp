@@ -11,8 +11,8 @@ namespace limber::bullet::test {
 namespace {
 
 constexpr double kBallSpeeds[] = {10.0, 50.0, 200.0};  // m/s
-constexpr double kRadius = 0.1;                    // m
-constexpr double kMass = 1.0;                      // kg
+constexpr double kRadius = 0.1;                        // m
+constexpr double kMass = 1.0;                          // kg
 
 Scene ball_on_sheet(double speed, double strain_at_break) {
   const bool breakable = strain_at_break < kUnbreakable;

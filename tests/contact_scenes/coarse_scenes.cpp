@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kCoarseSpacing = 0.1;  // m, of block and sheet
 constexpr double kCoarseDrop = 0.2;     // m
-constexpr double kTop = 0.5;      // m
+constexpr double kTop = 0.5;            // m
 
 RigidSpec rod() {
   const Eigen::Quaterniond lying(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()));

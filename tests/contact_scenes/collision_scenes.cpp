@@ -12,8 +12,8 @@ namespace limber::bullet::test {
 namespace {
 
 constexpr double kCollisionSpeeds[] = {5.0, 20.0, 50.0};  // m/s
-constexpr double kCoarseSide = 0.3;                    // m, of the coarse block
-constexpr double kCoarse = kCoarseSide / 3;            // m, its spacing
+constexpr double kCoarseSide = 0.3;                       // m, of the coarse block
+constexpr double kCoarse = kCoarseSide / 3;               // m, its spacing
 
 Demand does_not_pass() {
   return {.what = "passed by mm", .most = 0.0, .value = [](const SceneState& state) {
@@ -48,8 +48,10 @@ PhysicalModel flying_needle() {
 
 std::vector<Scene> collision_scenes() {
   std::vector<Scene> scenes;
-  for (double v : kCollisionSpeeds) scenes.push_back(collision("fine on coarse block", fine_block(), v));
-  for (double v : kCollisionSpeeds) scenes.push_back(collision("needle on a block", flying_needle(), v));
+  for (double v : kCollisionSpeeds)
+    scenes.push_back(collision("fine on coarse block", fine_block(), v));
+  for (double v : kCollisionSpeeds)
+    scenes.push_back(collision("needle on a block", flying_needle(), v));
   return scenes;
 }
 

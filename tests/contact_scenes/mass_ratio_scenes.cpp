@@ -9,8 +9,8 @@ namespace limber::bullet::test {
 namespace {
 
 constexpr double kRatios[] = {1e-4, 1e-2, 1.0, 1e2, 1e4};
-constexpr double kBoxSide = 0.3;  // m
-constexpr double kCushionDrop = 0.1;     // m
+constexpr double kBoxSide = 0.3;      // m
+constexpr double kCushionDrop = 0.1;  // m
 constexpr double kCushionSpacing = kCushionSide / 5;
 
 const Limits kLimits = {.penetration = 0.5 * kCushionSpacing, .rest_speed = kAtRest};

@@ -6,7 +6,7 @@
 namespace limber::bullet::test {
 namespace {
 
-constexpr double kNeedleDrop = 0.3;            // m
+constexpr double kNeedleDrop = 0.3;      // m
 constexpr double kTilt = 0.02;           // rad: it falls over in the same way everywhere
 constexpr double kNeedleSpacing = 0.02;  // m
 constexpr double kBlockSide = 0.5;       // m

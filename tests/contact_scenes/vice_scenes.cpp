@@ -10,7 +10,7 @@
 namespace limber::bullet::test {
 namespace {
 
-constexpr double kCubeSide = 0.3;      // m, of the cube
+constexpr double kCubeSide = 0.3;  // m, of the cube
 constexpr double kJawDepth = 0.2;  // m
 constexpr double kClosing = 1.0;   // s, and as long for opening
 constexpr double kHolding = 0.5;   // s

@@ -78,8 +78,8 @@ TEST(RotateFreely, IsOfFourthOrder) {
   EXPECT_NEAR(std::log2(error / of_halves), 4.0, 0.3);
 }
 
-// What turns faster than anything does is not followed any more; that it does not take for ever, and
-// keeps its angular momentum, is what is left.
+// What turns faster than anything does is not followed any more; that it does not take for ever,
+// and keeps its angular momentum, is what is left.
 TEST(RotateFreely, EndsAtAnySpeed) {
   const Vec3 moments(1.0, 2.0, 3.0);
   const auto momentum_of = [&](const Eigen::Quaterniond& q, const Vec3& omega) {
